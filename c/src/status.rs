@@ -55,8 +55,8 @@ statuses! {
     StepSize = 5, "DALEMBERT_STEP_SIZE", "the step size is zero or not finite: give a finite step size that is not 0";
     /// The clock does not tell the step from none.
     Time = 6, "DALEMBERT_TIME", "a step does not change the time: the run is too long for its step size, or the time is not finite; initialise a new run";
-    /// A configuration, a velocity or a momentum is NaN or infinite.
-    NotFinite = 7, "DALEMBERT_NOT_FINITE", "a configuration, velocity or momentum is NaN or infinite: look at the state and the input given; if they are finite, try a smaller step";
+    /// A configuration, a velocity or a momentum given is NaN or infinite.
+    NotFinite = 7, "DALEMBERT_NOT_FINITE", "a configuration, velocity or momentum given is NaN or infinite: look at the state given";
     /// The input, or the time given, is NaN or infinite.
     InputNotFinite = 8, "DALEMBERT_INPUT_NOT_FINITE", "the input or the time given is NaN or infinite: look at the controller";
     /// A parameter is NaN.
@@ -64,7 +64,7 @@ statuses! {
     /// L, R or f, or a derivative of theirs, is NaN or infinite.
     DerivativesNotFinite = 10, "DALEMBERT_DERIVATIVES_NOT_FINITE", "a derivative of L, R or f is NaN or infinite: look at parameters, input and state; sqrt(s) has no derivative at s = 0, sqrt(s + eps^2) has";
     /// The mass matrix is singular.
-    DegenerateLagrangian = 11, "DALEMBERT_DEGENERATE_LAGRANGIAN", "the mass matrix is singular: look at the masses among the parameters";
+    DegenerateLagrangian = 11, "DALEMBERT_DEGENERATE_LAGRANGIAN", "the mass matrix is singular: look at the masses among the parameters; where it is singular at this configuration alone, as at a pole of the coordinates, start away from it";
     /// The mass matrix is not positive definite.
     MassNotPositiveDefinite = 12, "DALEMBERT_MASS_NOT_POSITIVE_DEFINITE", "the mass matrix is not positive definite: look at the masses among the parameters";
     /// No velocity in reach has the momentum given.
@@ -82,11 +82,15 @@ statuses! {
     /// An error that this version has no number for.
     Other = 19, "DALEMBERT_OTHER", "the step was not taken";
     /// L has no derivative where the step evaluated it.
-    NoDerivativeOfLagrangian = 20, "DALEMBERT_NO_DERIVATIVE_OF_L", "L has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in L; or a number in it is too large: try a smaller step";
+    NoDerivativeOfLagrangian = 20, "DALEMBERT_NO_DERIVATIVE_OF_L", "L has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in L; or a parameter or the input is too large";
     /// R has no derivative where the step evaluated it.
-    NoDerivativeOfRayleigh = 21, "DALEMBERT_NO_DERIVATIVE_OF_R", "R has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in R; or a number in it is too large: try a smaller step";
+    NoDerivativeOfRayleigh = 21, "DALEMBERT_NO_DERIVATIVE_OF_R", "R has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in R; or a parameter or the input is too large";
     /// f has no derivative where the step evaluated it.
-    NoDerivativeOfForce = 22, "DALEMBERT_NO_DERIVATIVE_OF_F", "f has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in f; or a number in it is too large: try a smaller step";
+    NoDerivativeOfForce = 22, "DALEMBERT_NO_DERIVATIVE_OF_F", "f has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in f; or a parameter or the input is too large";
+    /// A step from a finite state leads to one that is NaN or infinite.
+    Overflow = 23, "DALEMBERT_OVERFLOW", "the step leads from a finite state to one that is NaN or infinite: look at parameters and input; if they are finite, try a smaller step";
+    /// The mass matrix is singular at this configuration and regular beside it.
+    SingularCoordinates = 24, "DALEMBERT_SINGULAR_COORDINATES", "the coordinates are singular at this configuration, as at a pole of spherical ones or in gimbal lock: start away from it, or take other coordinates";
 }
 
 impl From<StepError> for Status {
@@ -103,8 +107,14 @@ impl From<&StepError> for Status {
         match error {
             StepError::StepSize { .. } => Self::StepSize,
             StepError::Time { .. } => Self::Time,
-            StepError::NonFinite { quantity: Quantity::Derivatives, .. } => Self::DerivativesNotFinite,
-            StepError::NonFinite { .. } => Self::NotFinite,
+            StepError::NonFinite { quantity, .. } => match quantity {
+                Quantity::Derivatives => Self::DerivativesNotFinite,
+                Quantity::Input | Quantity::Time => Self::InputNotFinite,
+                Quantity::Field { .. } => Self::ParameterNan,
+                _ => Self::NotFinite,
+            },
+            StepError::Overflow { .. } => Self::Overflow,
+            StepError::SingularCoordinates { .. } => Self::SingularCoordinates,
             StepError::NoDerivative { function, .. } => match function {
                 Function::Lagrangian => Self::NoDerivativeOfLagrangian,
                 Function::Rayleigh => Self::NoDerivativeOfRayleigh,

@@ -30,6 +30,6 @@ pub use crate::step::{
 pub use crate::system::{
     ActingForce, CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian, ForcedLagrangianInLanes,
     Function, GeneratedDiffers, GradientBy, Input, Lagrangian, NewtonStructure, NoDerivative, OfSlice,
-    Operation, Parameters, Place, Plain, PlainFields, Rayleigh, Refusal, ScalarField, SecondOrder,
+    Operation, Parameters, Place, Plain, PlainFields, Quantity, Rayleigh, Refusal, ScalarField, SecondOrder,
     SliceMethods, Stages, Structure, TimeScale, VectorField, Written,
 };

@@ -17,11 +17,11 @@ typedef enum dalembert_status {
     DALEMBERT_NOT_INITIALISED = 4, /**< the memory holds no run of this system: call init first, and keep the memory as it is */
     DALEMBERT_STEP_SIZE = 5, /**< the step size is zero or not finite: give a finite step size that is not 0 */
     DALEMBERT_TIME = 6, /**< a step does not change the time: the run is too long for its step size, or the time is not finite; initialise a new run */
-    DALEMBERT_NOT_FINITE = 7, /**< a configuration, velocity or momentum is NaN or infinite: look at the state and the input given; if they are finite, try a smaller step */
+    DALEMBERT_NOT_FINITE = 7, /**< a configuration, velocity or momentum given is NaN or infinite: look at the state given */
     DALEMBERT_INPUT_NOT_FINITE = 8, /**< the input or the time given is NaN or infinite: look at the controller */
     DALEMBERT_PARAMETER_NAN = 9, /**< a parameter is NaN: fill in every field of the parameters */
     DALEMBERT_DERIVATIVES_NOT_FINITE = 10, /**< a derivative of L, R or f is NaN or infinite: look at parameters, input and state; sqrt(s) has no derivative at s = 0, sqrt(s + eps^2) has */
-    DALEMBERT_DEGENERATE_LAGRANGIAN = 11, /**< the mass matrix is singular: look at the masses among the parameters */
+    DALEMBERT_DEGENERATE_LAGRANGIAN = 11, /**< the mass matrix is singular: look at the masses among the parameters; where it is singular at this configuration alone, as at a pole of the coordinates, start away from it */
     DALEMBERT_MASS_NOT_POSITIVE_DEFINITE = 12, /**< the mass matrix is not positive definite: look at the masses among the parameters */
     DALEMBERT_NO_VELOCITY = 13, /**< no velocity in reach has this momentum: look at the state given */
     DALEMBERT_SINGULAR_NEWTON_MATRIX = 14, /**< the equations of the step are singular: try a smaller step */
@@ -30,9 +30,11 @@ typedef enum dalembert_status {
     DALEMBERT_NOT_CONVERGED = 17, /**< the equations of the step were not solved within the iteration limit: try a smaller step */
     DALEMBERT_GENERATED_DIFFERS = 18, /**< the derivatives generated are not those of L, R and f as written: report this as a mistake of the generator */
     DALEMBERT_OTHER = 19, /**< the step was not taken */
-    DALEMBERT_NO_DERIVATIVE_OF_L = 20, /**< L has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in L; or a number in it is too large: try a smaller step */
-    DALEMBERT_NO_DERIVATIVE_OF_R = 21, /**< R has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in R; or a number in it is too large: try a smaller step */
-    DALEMBERT_NO_DERIVATIVE_OF_F = 22 /**< f has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in f; or a number in it is too large: try a smaller step */
+    DALEMBERT_NO_DERIVATIVE_OF_L = 20, /**< L has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in L; or a parameter or the input is too large */
+    DALEMBERT_NO_DERIVATIVE_OF_R = 21, /**< R has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in R; or a parameter or the input is too large */
+    DALEMBERT_NO_DERIVATIVE_OF_F = 22, /**< f has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in f; or a parameter or the input is too large */
+    DALEMBERT_OVERFLOW = 23, /**< the step leads from a finite state to one that is NaN or infinite: look at parameters and input; if they are finite, try a smaller step */
+    DALEMBERT_SINGULAR_COORDINATES = 24 /**< the coordinates are singular at this configuration, as at a pole of spherical ones or in gimbal lock: start away from it, or take other coordinates */
 } dalembert_status;
 
 /** How a step went. */

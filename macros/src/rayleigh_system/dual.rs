@@ -16,7 +16,7 @@ use quote::quote;
 use super::lower::{Lowered, Refusal};
 use super::model::{Part, RayleighArguments, Source, System};
 use super::structure::{Engine, Structure};
-use super::write::item::{as_written, conditions};
+use super::write::item::{PlainFields, as_written, conditions};
 use super::write::{self, EngineFunctions, view};
 pub use expressions::names_are_taken;
 pub use field::field;
@@ -100,7 +100,7 @@ fn engine(system: &System<'_>, refusal: Option<Refusal>) -> EngineFunctions {
         names: vec!["Direction", "Variations", "dual"],
         calls_elementary: false,
         bindings: Vec::new(),
-        plain: None,
+        plain: PlainFields::default(),
     }
 }
 

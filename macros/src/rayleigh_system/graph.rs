@@ -263,13 +263,16 @@ impl Graph {
         node
     }
 
-    /// The user's tokens that the expressions take for a type.
-    pub fn taken_for(&self, taken: Taken, roots: impl IntoIterator<Item = Node>) -> Vec<TokenStream> {
+    /// The user's tokens that the expressions take for a type, and whether they can be read anywhere.
+    pub fn taken_for(&self, taken: Taken, roots: impl IntoIterator<Item = Node>) -> Vec<(TokenStream, bool)> {
         let parameters = self.reachable(roots).into_iter().filter_map(|node| match self.operation(node) {
             Operation::Parameter(index) => Some(&self.parameters[index]),
             _ => None,
         });
-        parameters.filter(|known| known.taken_for == Some(taken)).map(|known| known.tokens.clone()).collect()
+        parameters
+            .filter(|known| known.taken_for == Some(taken))
+            .map(|known| (known.tokens.clone(), !known.stays && !known.is_block))
+            .collect()
     }
 
     /// Leaves the parameter within the conditions that it stands in.

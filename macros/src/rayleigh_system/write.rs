@@ -16,6 +16,7 @@ use syn::Ident;
 use super::model::System;
 use super::structure::{Engine, Structure};
 pub use discrete::{Kernel, Memory};
+use item::PlainFields;
 
 /// The functions that the runtime's traits ask for, as an engine writes them.
 pub struct EngineFunctions {
@@ -51,8 +52,8 @@ pub struct EngineFunctions {
     pub calls_elementary: bool,
     /// Names that rustc has to agree are bindings.
     pub bindings: Vec<Ident>,
-    /// The check that what is taken for a number is one.
-    pub plain: Option<TokenStream>,
+    /// The numbers read of the system, for rustc to agree.
+    pub plain: PlainFields,
 }
 
 /// The system: every trait that it implements, in a scope of their own.
@@ -60,8 +61,13 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
     let is_expanded = matches!(functions.structure.engine, Engine::Expanded);
     let is_explicit = functions.kernels.iter().flatten().any(|kernel| kernel.explicit.is_some());
     let imports = imports::imports(system, &functions.names, functions.calls_elementary);
-    let lagrangian =
-        continuous::lagrangian(system, &functions.structure, functions.lagrangian, &functions.places);
+    let lagrangian = continuous::lagrangian(
+        system,
+        &functions.structure,
+        functions.lagrangian,
+        &functions.places,
+        &functions.plain,
+    );
     let rayleigh = system
         .rayleigh
         .zip(functions.rayleigh)
@@ -84,7 +90,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
         quote!(#discrete #rayleigh)
     });
     let offered_methods = discrete::offered_methods(system, is_explicit);
-    let (bindings, plain) = (item::are_bindings(&functions.bindings), functions.plain);
+    let (bindings, plain) = (item::are_bindings(&functions.bindings), functions.plain.implementation);
     let (conditions, quiet) = (item::conditions(system.source), item::quiet());
     let (scalar, n) = (&system.scalar, system.degrees.times(1));
     quote! {

@@ -167,7 +167,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         names,
         calls_elementary: code.calls_elementary,
         bindings,
-        plain: Some(are_plain(system, plain, &of_arrays)),
+        plain: are_plain(system, plain, &of_arrays),
     };
     Ok(WrittenOut { functions, run, lacks_stages })
 }

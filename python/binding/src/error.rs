@@ -142,6 +142,11 @@ fn described<'py>(py: Python<'py>, error: &StepError) -> PyResult<(&'static str,
             data.set_item("index", index)?;
             "NonFinite"
         }
+        StepError::Overflow { quantity, index } => {
+            data.set_item("quantity", quantity.to_string())?;
+            data.set_item("index", index)?;
+            "Overflow"
+        }
         StepError::NoDerivative { function, coordinate, place } => {
             data.set_item("function", function.to_string())?;
             data.set_item("coordinate", coordinate)?;
@@ -153,6 +158,10 @@ fn described<'py>(py: Python<'py>, error: &StepError) -> PyResult<(&'static str,
         StepError::DegenerateLagrangian { column } => {
             data.set_item("column", column)?;
             "DegenerateLagrangian"
+        }
+        StepError::SingularCoordinates { column } => {
+            data.set_item("column", column)?;
+            "SingularCoordinates"
         }
         StepError::MassNotPositiveDefinite { column } => {
             data.set_item("column", column)?;

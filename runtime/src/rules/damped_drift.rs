@@ -14,11 +14,12 @@ use core::cmp::Ordering;
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{NewtonMatrix, Scalar};
+use crate::step::cause::cause_of;
 use crate::step::{
     BoundedStep, Discrete, Momenta, Quantity, State, Step, StepError, StepKernel, newton::Equation, step_by,
     step_within_by,
 };
-use crate::system::{GeneratedDiffers, Lagrangian, NoDerivative, Rayleigh};
+use crate::system::{GeneratedDiffers, Lagrangian, Rayleigh};
 
 /// The matrices of a damped free segment, and the terms of first degree: what a step by a fitted rule needs
 /// of the system, but for the potential. They depend on h alone.
@@ -186,20 +187,20 @@ pub(crate) trait ByDrift: Sized {
         })
     }
 
-    /// The function without a derivative at rest: at the start, where the free motion is taken from, or at a
-    /// node.
+    /// The cause of numbers that are not finite, by what has no derivative at rest: at the start, where the
+    /// free motion is taken from, or at a node.
     #[cold]
     fn cause<L: Lagrangian<N> + ?Sized, const N: usize>(
         system: &L,
         q0: &SVector<L::Scalar, N>,
         v: &SVector<L::Scalar, N>,
         h: L::Scalar,
-    ) -> Option<NoDerivative> {
+    ) -> Option<StepError> {
         let at = |share: f64| {
             system.without_derivative(&(q0 + v * (h * L::Scalar::constant(share))), &nalgebra::zero())
         };
         if cfg!(feature = "std") {
-            at(0.0).or_else(|| Self::NODES.iter().find_map(|&share| at(share)))
+            cause_of(system, at(0.0).or_else(|| Self::NODES.iter().find_map(|&share| at(share))))
         } else {
             None
         }

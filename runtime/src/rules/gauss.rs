@@ -373,10 +373,9 @@ fn solved_from<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, co
 ) -> Result<Solution<T, N, S>, StepError> {
     let v = state.velocity(problem.system)?;
     match solve(problem, &v) {
-        Err(
-            error @ (StepError::NonFinite { quantity: Quantity::Derivatives, .. }
-            | StepError::NoDerivative { .. }),
-        ) => from_singular(problem, state, &v).ok_or(error),
+        Err(error @ (StepError::NonFinite { .. } | StepError::NoDerivative { .. })) => {
+            from_singular(problem, state, &v).ok_or(error)
+        }
         Err(error) => in_parts(problem, &v).ok_or(error),
         solved => solved,
     }

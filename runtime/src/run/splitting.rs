@@ -14,6 +14,7 @@ use crate::numbers::{Compensated, Scalar};
 use crate::rules::{Drift, modes, require_positive_definite};
 use crate::run::Explicit;
 use crate::run::memory::verify_explicit;
+use crate::step::cause::{cause_of, explained};
 use crate::step::{
     Flow, Linearization, Memory, PhaseMatrix, Quantity, Report, State, StateBy, Step, StepError, StepWith,
     invert,
@@ -351,8 +352,8 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
                         p += (system.configuration_force(&q) - self.thrust) * self.kicks[i];
                         system.without_derivative(&q, &nalgebra::zero())
                     });
-                    if let Some(found) = found {
-                        return found.into();
+                    if found.is_some() {
+                        return cause_of(system, found).unwrap_or(error);
                     }
                 }
                 Part::Drift(i) => {
@@ -362,7 +363,7 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
                 }
             }
         }
-        error
+        cause_of(system, None).unwrap_or(error)
     }
 }
 
@@ -412,7 +413,9 @@ where
     ) -> Result<Step<L::Scalar, N>, StepError> {
         let prepared = match &mut self.prepared {
             Some(prepared) if prepared.h == h => prepared,
-            other => other.insert(Prepared::new(system, h)?),
+            other => other.insert(
+                Prepared::new(system, h).map_err(|error| explained(error, &|| cause_of(system, None)))?,
+            ),
         };
         let force = match self.force {
             Some((q, force)) if q == state.q && !L::IS_TIMED => force,
@@ -449,7 +452,7 @@ where
             }),
         };
         let (end, rests) = at.end();
-        end.require_finite().map_err(|error| prepared.explained(system, state, error))?;
+        end.require_reached().map_err(|error| prepared.explained(system, state, error))?;
         let velocity = (end.q - state.q) / h;
         if cfg!(debug_assertions) {
             system.verify_segment(&state.q, &velocity, h)?;

@@ -5,19 +5,20 @@
 
 use nalgebra::SVector;
 
-#[cfg(feature = "std")]
-use crate::step::Quantity;
 use crate::step::StepError;
+use crate::step::regular::is_regular_beside;
+#[cfg(feature = "std")]
+use crate::system::Quantity;
 use crate::system::{Lagrangian, NoDerivative, missing};
 
-/// The `error`, if it is one of derivatives that are not finite, with its `cause` in place of it.
+/// The `error`, if it is one of numbers that are not finite, with its `cause` in place of it.
 #[cfg(feature = "std")]
 #[cold]
 #[inline(never)]
-pub(crate) fn explained(error: StepError, cause: &dyn Fn() -> Option<NoDerivative>) -> StepError {
+pub(crate) fn explained(error: StepError, cause: &dyn Fn() -> Option<StepError>) -> StepError {
     match error {
-        StepError::NonFinite { quantity: Quantity::Derivatives, .. } => {
-            cause().map_or(error, StepError::from)
+        StepError::NonFinite { quantity: Quantity::Derivatives, .. } | StepError::Overflow { .. } => {
+            cause().unwrap_or(error)
         }
         other => other,
     }
@@ -26,8 +27,23 @@ pub(crate) fn explained(error: StepError, cause: &dyn Fn() -> Option<NoDerivativ
 /// The `error`: nothing looks for its cause.
 #[cfg(not(feature = "std"))]
 #[inline(always)]
-pub(crate) fn explained(error: StepError, _: &dyn Fn() -> Option<NoDerivative>) -> StepError {
+pub(crate) fn explained(error: StepError, _: &dyn Fn() -> Option<StepError>) -> StepError {
     error
+}
+
+/// The cause of numbers that are not finite: an operation that has no derivative there, else an input, time
+/// or field that is no number, else the function with that derivative.
+#[cfg_attr(feature = "std", cold)]
+#[cfg_attr(not(feature = "std"), inline(always))]
+pub(crate) fn cause_of<L: Lagrangian<N> + ?Sized, const N: usize>(
+    system: &L,
+    found: Option<NoDerivative>,
+) -> Option<StepError> {
+    if let Some(NoDerivative { place: Some(_), .. }) = found {
+        return found.map(StepError::from);
+    }
+    let given = system.non_finite_value();
+    given.map(|(quantity, index)| StepError::NonFinite { quantity, index }).or(found.map(StepError::from))
 }
 
 /// [`explained`] where L alone was evaluated, at (q, v).
@@ -39,5 +55,11 @@ pub(crate) fn explained_by_lagrangian<L: Lagrangian<N> + ?Sized, const N: usize>
     v: &SVector<L::Scalar, N>,
     error: StepError,
 ) -> StepError {
-    explained(error, &|| missing::lagrangian(system, q, v))
+    let error = explained(error, &|| cause_of(system, missing::lagrangian(system, q, v)));
+    match error {
+        StepError::DegenerateLagrangian { column } if is_regular_beside(system, q, v) => {
+            StepError::SingularCoordinates { column }
+        }
+        other => other,
+    }
 }

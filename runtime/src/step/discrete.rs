@@ -10,13 +10,15 @@
 use nalgebra::SVector;
 
 use crate::numbers::{Derivatives, NewtonMatrix, determinant_sign};
-use crate::step::cause::explained;
+use crate::step::cause::{cause_of, explained};
 use crate::step::defect;
 use crate::step::{
     Defect, DiscreteForce, DiscreteForceDerivatives, EquationAt, Flow, LegendreDerivatives, Linearization,
-    Memory, Momenta, Quantity, State, Step, StepError, StepKernel,
+    Memory, Momenta, State, Step, StepError, StepKernel,
 };
-use crate::system::{Engine, GeneratedDiffers, NoDerivative, VectorField, verification::verify_node};
+use crate::system::{
+    Engine, GeneratedDiffers, NoDerivative, Quantity, VectorField, verification::verify_node,
+};
 
 /// A system discretised by rule `R`: L_d, f_d and what follows from them.
 ///
@@ -354,5 +356,5 @@ pub(crate) fn explained_on<L: Discrete<R, N> + ?Sized, R, const N: usize>(
     h: L::Scalar,
     error: StepError,
 ) -> StepError {
-    explained(error, &|| system.without_derivative_on(q0, v, h))
+    explained(error, &|| cause_of(system, system.without_derivative_on(q0, v, h)))
 }

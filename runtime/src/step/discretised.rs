@@ -7,11 +7,12 @@ use core::marker::PhantomData;
 use nalgebra::SVector;
 
 use crate::numbers::Derivatives;
+use crate::step::discrete::explained_on;
 use crate::step::{
     BoundedFlow, BoundedStep, ClosedForm, Discrete, DiscreteForce, DiscreteRayleigh, DiscreteSegment, Flow,
-    LegendreDerivatives, Quantity, State, Step, StepError, require_step_size,
+    LegendreDerivatives, State, Step, StepError, require_step_size,
 };
-use crate::system::Lagrangian;
+use crate::system::{Lagrangian, Quantity};
 
 /// A system discretised by rule `R` with step size h: [`by`](crate::Discretise::by).
 ///
@@ -200,7 +201,10 @@ where
     ) -> Result<Step<L::Scalar, N>, StepError> {
         require_step_size(self.h)?;
         StepError::require_finite(q0, Quantity::Configuration)?;
+        StepError::require_finite(q1, Quantity::Configuration)?;
         let state = self.system.legendre_plus(q0, q1, self.h);
+        StepError::require_finite(&state.p, Quantity::Derivatives)
+            .map_err(|error| explained_on(self.system, q0, &((q1 - q0) / self.h), self.h, error))?;
         self.system.later(self.h, |system| system.step(&state, self.h, self.guess.as_ref()))
     }
 }

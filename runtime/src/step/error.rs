@@ -5,21 +5,7 @@ use core::fmt;
 use nalgebra::SMatrix;
 
 use crate::numbers::Scalar;
-use crate::system::{Compared, Function, GeneratedDiffers, NoDerivative, Place};
-
-/// A quantity that an error speaks of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Quantity {
-    /// The configuration q.
-    Configuration,
-    /// The velocity v, or the guess for v̄.
-    Velocity,
-    /// The momentum p.
-    Momentum,
-    /// The derivatives of L, R or f, at the point where the step evaluated them.
-    Derivatives,
-}
+use crate::system::{Compared, Function, GeneratedDiffers, NoDerivative, Place, Quantity};
 
 /// Why a step was not taken. The state that it started from is untouched; each message says whether a smaller
 /// step size can help.
@@ -50,9 +36,17 @@ pub enum StepError {
         /// The step size before.
         h: f64,
     },
-    /// A value is NaN or infinite.
+    /// A value is NaN or infinite: of the state, guess, input or time given, of a field of the system, or a
+    /// derivative at a state that is finite.
     NonFinite {
         /// Which value.
+        quantity: Quantity,
+        /// Its coordinate, or the entry of the input; 0 of a time and a field.
+        index: usize,
+    },
+    /// A step from a finite state leads to one that is NaN or infinite.
+    Overflow {
+        /// Which value of the new state.
         quantity: Quantity,
         /// Its coordinate.
         index: usize,
@@ -70,6 +64,13 @@ pub enum StepError {
     },
     /// ∂²L/∂v² is singular: momenta do not determine velocities.
     DegenerateLagrangian {
+        /// The coordinate whose pivot vanishes.
+        column: usize,
+    },
+    /// ∂²L/∂v² is singular at this configuration and regular beside it, as at a pole of spherical
+    /// coordinates. Without the standard library nothing looks beside it, and the error is
+    /// [`DegenerateLagrangian`](Self::DegenerateLagrangian).
+    SingularCoordinates {
         /// The coordinate whose pivot vanishes.
         column: usize,
     },
@@ -143,6 +144,15 @@ impl StepError {
         if poison == S::zero() { Ok(()) } else { Err(Self::non_finite(vector, quantity)) }
     }
 
+    /// The error of a state that is reached, made of that of one that is given.
+    #[cold]
+    pub(crate) fn of_reached(self) -> Self {
+        match self {
+            Self::NonFinite { quantity, index } => Self::Overflow { quantity, index },
+            other => other,
+        }
+    }
+
     #[cold]
     fn non_finite<S: Scalar, const N: usize, const K: usize>(
         vector: &SMatrix<S, N, K>,
@@ -165,17 +175,6 @@ impl From<NoDerivative> for StepError {
     }
 }
 
-impl fmt::Display for Quantity {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Configuration => "configuration",
-            Self::Velocity => "velocity",
-            Self::Momentum => "momentum",
-            Self::Derivatives => "derivative of L, R or f",
-        })
-    }
-}
-
 impl fmt::Display for StepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -194,23 +193,31 @@ impl fmt::Display for StepError {
                 f,
                 "the time scale σ is {scale} at the state; it has to be positive and finite wherever the run comes"
             ),
-            Self::NonFinite { quantity: Quantity::Derivatives, index } => write!(
-                f,
-                "derivative of L, R or f {index} is NaN or infinite; look at L, R and f at the state given: √s has no \
-                 derivative at s = 0 (√(s + ε²) has), a power below 1 and a logarithm have none at 0; if theirs are finite \
-                 there, try a smaller step"
-            ),
+            &Self::NonFinite { quantity, index } => non_finite(f, quantity, index),
             &Self::NoDerivative { function, coordinate, place } => {
                 NoDerivative { function, coordinate, place }.fmt(f)
             }
-            Self::NonFinite { quantity, index } => write!(
+            Self::Overflow { quantity, index } => write!(
                 f,
-                "{quantity} {index} is NaN or infinite; look at the state given: if it is finite, try a smaller step"
+                "the step leads from a finite state to a {quantity} {index} that is NaN or infinite; look at the fields of \
+                 the system and its input; if all are finite numbers, try a smaller step"
             ),
-            Self::DegenerateLagrangian { column } => write!(
+            Self::DegenerateLagrangian { column } => {
+                write!(
+                    f,
+                    "∂²L/∂v² is singular (pivot of coordinate {column}): momenta do not determine velocities; give \
+                     coordinate {column} a kinetic energy of its own, or remove it"
+                )?;
+                if cfg!(feature = "std") {
+                    return Ok(());
+                }
+                f.write_str("; if it has one beside this point, start away from the point")
+            }
+            Self::SingularCoordinates { column } => write!(
                 f,
-                "∂²L/∂v² is singular (pivot of coordinate {column}): momenta do not determine velocities; give \
-                 coordinate {column} a kinetic energy of its own, or remove it"
+                "the coordinates are singular at this configuration: ∂²L/∂v² is singular there (pivot of coordinate \
+                 {column}) and regular beside it, as at a pole of spherical coordinates, at r = 0 of polar ones or in \
+                 gimbal lock; start away from that point, or take coordinates that are regular there"
             ),
             Self::MassNotPositiveDefinite { column } => write!(
                 f,
@@ -244,6 +251,32 @@ impl fmt::Display for StepError {
             &Self::GeneratedDiffers { function, compared, generated, written } => {
                 GeneratedDiffers { function, compared, generated, written }.fmt(f)
             }
+        }
+    }
+}
+
+/// The text of [`StepError::NonFinite`].
+fn non_finite(f: &mut fmt::Formatter<'_>, quantity: Quantity, index: usize) -> fmt::Result {
+    match quantity {
+        Quantity::Derivatives => write!(
+            f,
+            "a derivative of L, R or f by coordinate {index} is NaN or infinite; look first at the fields of the system \
+             and its input: one may be NaN, infinite or too large; then at L, R and f: √s has no derivative at s = 0 \
+             (√(s + ε²) has), a power below 1 and a logarithm have none at 0; if theirs are finite at the state \
+             given, the step leaves the region where they are: try a smaller step"
+        ),
+        Quantity::Input => write!(
+            f,
+            "entry {index} of the input u is NaN or infinite; look at what gives the input, a controller or a sensor"
+        ),
+        Quantity::Time => {
+            f.write_str("the time given is NaN or infinite; give the time that the step starts at")
+        }
+        Quantity::Field { name } => {
+            write!(f, "`{name}` of the system is NaN, and L, R or f compute with it; give it a number")
+        }
+        Quantity::Configuration | Quantity::Velocity | Quantity::Momentum => {
+            write!(f, "the {quantity} given is NaN or infinite in coordinate {index}; give finite numbers")
         }
     }
 }

@@ -1,14 +1,15 @@
 //! The Legendre transform of L: states from velocities, and back.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
 use crate::numbers::{Scalar, linear};
 use crate::step::cause::explained_by_lagrangian;
+use crate::step::regular::{beside_velocity, require_regular};
 use crate::step::{
-    Quantity, State, StepError, StepKernel, newton,
+    State, StepError, StepKernel, newton,
     newton::{estimated_floor, held_against},
 };
-use crate::system::{Lagrangian, derivatives_apart, missing, verification::around};
+use crate::system::{Lagrangian, Quantity, derivatives_apart, verification::around};
 
 impl<S: Scalar, const N: usize> State<S, N> {
     /// The state (q, ∂L/∂v(q, v)), by the Legendre transform of L.
@@ -16,7 +17,8 @@ impl<S: Scalar, const N: usize> State<S, N> {
     /// # Errors
     /// [`StepError::NonFinite`] if q, v, p or ∂²L/∂v² is not finite, [`StepError::DegenerateLagrangian`] if
     /// ∂²L/∂v² is singular, at v and next to it: that of |v|⁴ is singular at v = 0 alone;
-    /// [`StepError::GeneratedDiffers`] if the derivatives generated belong to another function.
+    /// [`StepError::SingularCoordinates`] if it is so at q alone; [`StepError::GeneratedDiffers`] if the
+    /// derivatives generated belong to another function.
     pub fn from_velocity<L: Lagrangian<N, Scalar = S>>(
         system: &L,
         q: impl Into<SVector<S, N>>,
@@ -27,10 +29,8 @@ impl<S: Scalar, const N: usize> State<S, N> {
         StepError::require_finite(&v, Quantity::Velocity)?;
         around(system, &q, &v)?;
         let l = derivatives_apart(system, &q, &v);
-        StepError::require_finite(&l.d2, Quantity::Momentum).map_err(|error| {
-            let cause = || missing::lagrangian(system, &q, &v);
-            if cfg!(feature = "std") { cause().map_or(error, StepError::from) } else { error }
-        })?;
+        StepError::require_finite(&l.d2, Quantity::Derivatives)
+            .map_err(|error| explained_by_lagrangian(system, &q, &v, error))?;
         require_regular(&l.d22).or_else(|error| require_regular_nearby(system, &q, &v, error))?;
         Ok(Self { q, p: l.d2 })
     }
@@ -43,7 +43,8 @@ impl<S: Scalar, const N: usize> State<S, N> {
     ///
     /// # Errors
     /// As [`Discretised::step`](crate::Discretised::step); [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is
-    /// singular everywhere, [`StepError::NoVelocity`] if no velocity in reach has this momentum.
+    /// singular everywhere, [`StepError::SingularCoordinates`] if it is so at q alone,
+    /// [`StepError::NoVelocity`] if no velocity in reach has this momentum.
     pub fn velocity<L: Lagrangian<N, Scalar = S> + ?Sized>(
         &self,
         system: &L,
@@ -76,6 +77,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
         system: &L,
         error: Option<StepError>,
     ) -> Result<SVector<S, N>, StepError> {
+        let rest = nalgebra::zero();
         // 𝔽L is the limit h → 0 of the discrete transforms.
         let transform = |q: &SVector<S, N>, v: &SVector<S, N>| {
             let l = derivatives_apart(system, q, v);
@@ -84,9 +86,11 @@ impl<S: Scalar, const N: usize> State<S, N> {
         let momentum = |q: &SVector<S, N>, v: &SVector<S, N>| system.lagrangian_gradient(q, v).d2;
         let mass = |q: &SVector<S, N>, v: &SVector<S, N>| derivatives_apart(system, q, v).d22;
         newton::root_from_rest(&transform, &momentum, &mass, self, error).map_err(|error| match error {
-            StepError::SingularNewtonMatrix { column, .. } => StepError::DegenerateLagrangian { column },
             StepError::NoRealSolution { residual, .. } => StepError::NoVelocity { residual },
-            other => explained_by_lagrangian(system, &self.q, &nalgebra::zero(), other),
+            StepError::SingularNewtonMatrix { column, .. } => {
+                explained_by_lagrangian(system, &self.q, &rest, StepError::DegenerateLagrangian { column })
+            }
+            other => explained_by_lagrangian(system, &self.q, &rest, other),
         })
     }
 
@@ -109,23 +113,6 @@ fn require_regular_nearby<L: Lagrangian<N> + ?Sized, const N: usize>(
     v: &SVector<L::Scalar, N>,
     error: StepError,
 ) -> Result<(), StepError> {
-    let constant = L::Scalar::constant;
-    let size = if v.amax() > constant(0.0) { v.amax() } else { constant(1.0) };
-    // No two coordinates alike: one that is symmetric could be singular once more.
-    let nearby = SVector::from_fn(|i, _| {
-        v[i] + size * constant(1.0 / 8.0) * (constant(1.0) + constant(i as f64) / constant(N as f64 + 1.0))
-    });
-    require_regular(&derivatives_apart(system, q, &nearby).d22)
+    require_regular(&derivatives_apart(system, q, &beside_velocity(v)).d22)
         .map_err(|_| explained_by_lagrangian(system, q, v, error))
-}
-
-/// Fails where ∂²L/∂v² is not finite or cannot be inverted.
-pub(crate) fn require_regular<S: Scalar, const N: usize>(
-    mass_matrix: &SMatrix<S, N, N>,
-) -> Result<(), StepError> {
-    if let Some(index) = (0..N).find(|&i| mass_matrix.row(i).iter().any(|entry| !entry.is_finite())) {
-        return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
-    }
-    linear::require_regular(mass_matrix)
-        .map_err(|singular| StepError::DegenerateLagrangian { column: singular.column })
 }

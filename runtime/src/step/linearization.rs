@@ -27,9 +27,10 @@ use core::ops::Mul;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::numbers::{Derivatives, Scalar, derivatives::linear, linear};
-use crate::step::{DiscreteForceDerivatives, Momenta, MomentaBy, Quantity, StepError};
-use crate::system::Lagrangian;
+use crate::numbers::{Derivatives, Scalar, Singular, derivatives::linear, linear};
+use crate::step::cause::explained_by_lagrangian;
+use crate::step::{DiscreteForceDerivatives, Momenta, MomentaBy, StepError};
+use crate::system::{Lagrangian, Quantity};
 
 /// Both momenta of a segment with their derivatives by its two configurations; see the formulas above.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -209,7 +210,7 @@ impl<S: Scalar, const N: usize, const M: usize> StateBy<S, N, M> {
     /// Both parts as one matrix, q above p; K = 2N.
     #[must_use]
     pub fn assembled<const K: usize>(&self) -> SMatrix<S, K, M> {
-        const { assert!(K == 2 * N) };
+        const { assert!(K == 2 * N, "K is 2N: for N = 1 write `assembled::<2>()`, for N = 2 `assembled::<4>()`") };
         SMatrix::from_fn(|i, j| if i < N { self.q[(i, j)] } else { self.p[(i - N, j)] })
     }
 }
@@ -236,15 +237,17 @@ impl<S: Scalar, const N: usize> PhaseMatrix<S, N> {
     /// blocks of p stand for those of v. What a sensor of velocities makes of a state.
     ///
     /// # Errors
-    /// [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular.
+    /// [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular, [`StepError::SingularCoordinates`] if it
+    /// is so at q alone.
     pub fn to_velocity<L: Lagrangian<N, Scalar = S>>(
         system: &L,
         q: &SVector<S, N>,
         v: &SVector<S, N>,
     ) -> Result<Self, StepError> {
         let l = system.lagrangian_derivatives(q, v);
-        let v_by_p = linear::inverse(&l.d22)
-            .map_err(|singular| StepError::DegenerateLagrangian { column: singular.column })?;
+        let v_by_p = linear::inverse(&l.d22).map_err(|Singular { column }| {
+            explained_by_lagrangian(system, q, v, StepError::DegenerateLagrangian { column })
+        })?;
         Ok(Self {
             q_by_q: SMatrix::identity(),
             q_by_p: SMatrix::zeros(),
@@ -256,7 +259,7 @@ impl<S: Scalar, const N: usize> PhaseMatrix<S, N> {
     /// The blocks as one matrix in the order (q, p); M = 2N.
     #[must_use]
     pub fn assembled<const M: usize>(&self) -> SMatrix<S, M, M> {
-        const { assert!(M == 2 * N) };
+        const { assert!(M == 2 * N, "M is 2N: for N = 1 write `assembled::<2>()`, for N = 2 `assembled::<4>()`") };
         SMatrix::from_fn(|i, j| {
             let block = match (i < N, j < N) {
                 (true, true) => &self.q_by_q,

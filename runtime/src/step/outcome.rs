@@ -73,7 +73,7 @@ impl<S: Scalar, const N: usize> Step<S, N> {
     ) -> Result<Self, StepError> {
         // Added to the p0 given: the residual of the solver, always of one sign, would make it drift.
         let next = State { q: state.q + velocity * h, p: state.p + (momenta.p1 - momenta.p0) };
-        next.require_finite()?;
+        next.require_reached()?;
         Ok(Self { state: next, velocity, report })
     }
 }

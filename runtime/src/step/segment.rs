@@ -7,9 +7,10 @@ use nalgebra::{SMatrix, SVector};
 use crate::numbers::{CovectorDerivatives, Derivatives, Scalar};
 use crate::step::discrete::explained_on;
 use crate::step::{
-    Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, LegendreDerivatives, Quantity,
-    State, StepError, require_step_size,
+    Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, LegendreDerivatives, State,
+    StepError, require_step_size,
 };
+use crate::system::Quantity;
 
 /// A segment (q0, q1) of a discretised system, by any rule: [`segment`](crate::Discretised::segment).
 ///
@@ -85,7 +86,7 @@ where
     /// [`StepError::NonFinite`].
     pub fn legendre_minus(&self) -> Result<State<L::Scalar, N>, StepError> {
         let state = self.system.legendre_minus(&self.q0, &self.q1, self.h);
-        state.require_finite().map(|()| state)
+        self.required(state, |state| finite(&state.p))
     }
 
     /// 𝔽⁺: (q1, D2 L_d + f_d⁺).
@@ -94,7 +95,7 @@ where
     /// [`StepError::NonFinite`].
     pub fn legendre_plus(&self) -> Result<State<L::Scalar, N>, StepError> {
         let state = self.system.legendre_plus(&self.q0, &self.q1, self.h);
-        state.require_finite().map(|()| state)
+        self.required(state, |state| finite(&state.p))
     }
 
     /// Both momenta with their derivatives by q0 and q1.

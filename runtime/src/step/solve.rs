@@ -3,17 +3,17 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{NewtonMatrix, Scalar, nonlinear::Way};
-use crate::step::cause::explained_by_lagrangian;
+use crate::step::cause::{explained, explained_by_lagrangian};
 use crate::step::{
-    BoundedStep, Momenta, Quantity, State, Step, StepError, StepKernel, newton,
+    BoundedStep, Momenta, State, Step, StepError, StepKernel, newton,
     newton::{Equation, StepEquations},
     require_regular,
 };
-use crate::system::{Lagrangian, NoDerivative, derivatives_apart};
+use crate::system::{Lagrangian, Quantity, derivatives_apart};
 
 /// [`Flow::step`](crate::step::Flow::step) with the step's equation and both momenta as functions of (q0, v̄,
 /// h), the mass that the velocity has in them, the sizes of terms that cancel in p0, and the
-/// function without a derivative where one is not finite.
+/// cause of numbers that are not finite.
 #[inline]
 pub(crate) fn step_by<L, M, const N: usize>(
     system: &L,
@@ -23,7 +23,7 @@ pub(crate) fn step_by<L, M, const N: usize>(
         impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> Momenta<L::Scalar, N>,
         impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N>,
         impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> SVector<L::Scalar, N>,
-        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> Option<NoDerivative>,
+        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> Option<StepError>,
     ),
     state: &State<L::Scalar, N>,
     h: L::Scalar,
@@ -65,8 +65,10 @@ where
         }
     };
     // An argument that is not finite shows here or has failed above: none is looked at before.
-    Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)
-        .map_err(|error| in_arguments(state, guess).unwrap_or(error))
+    Step::completed(state, h, solution.unknown, &solution.momenta, solution.report).map_err(|error| {
+        in_arguments(state, guess)
+            .unwrap_or_else(|| explained(error, &|| cause(&state.q, &solution.unknown, h)))
+    })
 }
 
 /// The velocity of `state`; where none is found, rest: a step may lead on, as from p = 0 at a singular point
@@ -90,11 +92,9 @@ fn first_guess<L: Lagrangian<N> + ?Sized, const N: usize>(
         Ok(v) if StepError::require_finite(&v, Quantity::Velocity).is_ok() => Ok(v),
         Err(
             error @ (StepError::DegenerateLagrangian { .. }
+            | StepError::SingularCoordinates { .. }
             | StepError::NoDerivative { .. }
-            | StepError::NonFinite {
-                quantity: Quantity::Configuration | Quantity::Momentum | Quantity::Derivatives,
-                ..
-            }),
+            | StepError::NonFinite { .. }),
         ) => Err(error),
         _ => Ok(rest),
     }
@@ -107,7 +107,7 @@ pub(crate) fn step_within_by<L, M, const N: usize>(
     (kernel, momenta, cause): (
         impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> StepKernel<L::Scalar, N, M>,
         impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> Momenta<L::Scalar, N>,
-        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> Option<NoDerivative>,
+        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> Option<StepError>,
     ),
     state: &State<L::Scalar, N>,
     h: L::Scalar,
@@ -125,8 +125,9 @@ where
         None => first_guess(system, kind, state)?,
     };
     StepError::require_finite(&guess, Quantity::Velocity)?;
-    let (solution, converged) = newton::bounded(kind, iterations, (kernel, momenta, cause), state, guess)?;
-    let step = Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)?;
+    let (solution, converged) = newton::bounded(kind, iterations, (kernel, momenta, &cause), state, guess)?;
+    let step = Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)
+        .map_err(|error| explained(error, &|| cause(&state.q, &solution.unknown)))?;
     Ok(BoundedStep { step, converged })
 }
 

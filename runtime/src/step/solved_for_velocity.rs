@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 
+use crate::step::cause::cause_of;
 use crate::step::{
     BoundedFlow, BoundedStep, Discrete, Flow, Linearization, State, Step, StepError, StepWith,
     newton::Equation, of_equation_and_step, step_by, step_within_by, verify_momenta,
@@ -65,7 +66,7 @@ where
             |q0: &_, v: &_, h| self.momenta(q0, v, h),
             |q0: &_, v: &_| derivatives_apart(self, q0, v).d22,
             |q0: &_, v: &_, h| self.cancelling_terms(q0, v, h),
-            |q0: &_, v: &_, h| self.without_derivative_on(q0, v, h),
+            |q0: &_, v: &_, h| cause_of(self, self.without_derivative_on(q0, v, h)),
         );
         let step = step_by(self, kind::<L, R, N>(), equation, state, h, guess);
         if cfg!(debug_assertions)
@@ -109,7 +110,7 @@ where
             (
                 |q0: &_, v: &_| self.step_kernel(q0, v, h),
                 |q0: &_, v: &_| self.momenta(q0, v, h),
-                |q0: &_, v: &_| self.without_derivative_on(q0, v, h),
+                |q0: &_, v: &_| cause_of(self, self.without_derivative_on(q0, v, h)),
             ),
             state,
             h,

@@ -3,7 +3,8 @@
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
-use crate::step::{Quantity, StepError};
+use crate::step::StepError;
+use crate::system::Quantity;
 
 /// Configuration and momentum, a point (q, p) of T*Q.
 ///
@@ -32,5 +33,11 @@ impl<S: Scalar, const N: usize> State<S, N> {
     pub(crate) fn require_finite(&self) -> Result<(), StepError> {
         StepError::require_finite(&self.q, Quantity::Configuration)?;
         StepError::require_finite(&self.p, Quantity::Momentum)
+    }
+
+    /// Likewise of the state that a step leads to.
+    #[inline]
+    pub(crate) fn require_reached(&self) -> Result<(), StepError> {
+        self.require_finite().map_err(StepError::of_reached)
     }
 }

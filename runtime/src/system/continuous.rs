@@ -9,7 +9,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Variations, dot};
-use crate::system::{Function, GeneratedDiffers, NoDerivative, Place, Structure};
+use crate::system::{Function, GeneratedDiffers, NoDerivative, Place, Quantity, Structure};
 
 /// A Lagrangian L(q, v) on TQ, Q = ℝᴺ, with its derivatives.
 #[diagnostic::on_unimplemented(
@@ -151,6 +151,30 @@ pub trait Lagrangian<const N: usize> {
         v: &SVector<Self::Scalar, N>,
     ) -> Option<Place> {
         let _ = (function, q, v);
+        None
+    }
+
+    /// The first of the values beside q and v that is no number: an entry of the input or the time held that
+    /// is NaN or infinite, with its index, or a field that is NaN. A field may well be infinite, as a limit
+    /// that is none.
+    ///
+    /// Generated; of fields where derivatives are written out, and of the first 64 of those that L, R and f
+    /// read. An error of a step asks for it, no step does.
+    ///
+    /// ```
+    /// use dalembert::step::Quantity;
+    /// use dalembert::{Lagrangian, rayleigh_system};
+    ///
+    /// #[rayleigh_system(rule = midpoint)]
+    /// fn oscillator(q: [f64; 1], v: [f64; 1], k: f64) -> f64 {
+    ///     0.5 * v[0] * v[0] - 0.5 * k * q[0] * q[0]
+    /// }
+    ///
+    /// let found = Oscillator { k: f64::NAN }.non_finite_value();
+    /// assert_eq!(found, Some((Quantity::Field { name: "k" }, 0)));
+    /// ```
+    #[cold]
+    fn non_finite_value(&self) -> Option<(Quantity, usize)> {
         None
     }
 

@@ -1,10 +1,13 @@
 //! Which of L, R and f has a derivative that does not exist, each function looked at by one of this module:
-//! what [`Lagrangian::without_derivative`] is made of.
+//! what [`Lagrangian::without_derivative`] is made of; and which of the values beside q and v is no number:
+//! [`Lagrangian::non_finite_value`].
 
 use nalgebra::SVector;
 
 use crate::numbers::{CovectorDerivatives, Derivatives, Scalar, comparison::Compares as _};
-use crate::system::{Force, Function, Lagrangian, NoDerivative, Rayleigh, derivatives_apart};
+use crate::system::{
+    Force, Function, Lagrangian, NoDerivative, Plain, Quantity, Rayleigh, derivatives_apart,
+};
 
 /// The derivative of L that is NaN or infinite at (q, v).
 #[cold]
@@ -41,6 +44,30 @@ pub fn force<L: Force<N> + ?Sized, const N: usize>(
 ) -> Option<NoDerivative> {
     let (index, coordinate) = of_covector(&system.force_derivatives(q, v))?;
     of(system, Function::Force { index }, Some(coordinate), q, v)
+}
+
+/// The first entry of an input that is NaN or infinite.
+#[cold]
+#[inline(never)]
+#[must_use]
+pub fn input<S: Scalar>(u: &[S]) -> Option<(Quantity, usize)> {
+    u.iter().position(|entry| !entry.is_finite()).map(|index| (Quantity::Input, index))
+}
+
+/// A time that is NaN or infinite.
+#[cold]
+#[inline(never)]
+#[must_use]
+pub fn time<S: Scalar>(t: S) -> Option<(Quantity, usize)> {
+    (!t.is_finite()).then_some((Quantity::Time, 0))
+}
+
+/// The first of these fields that is NaN, with their names.
+#[cold]
+#[inline(never)]
+#[must_use]
+pub fn field<S>(fields: &[(&'static str, &dyn Plain<S>)]) -> Option<(Quantity, usize)> {
+    fields.iter().find_map(|(name, value)| value.is_no_number().then_some((Quantity::Field { name }, 0)))
 }
 
 fn of<L: Lagrangian<N> + ?Sized, const N: usize>(

@@ -24,8 +24,10 @@ impl fmt::Display for NoDerivative {
             Some(place) => write!(f, ": {place}"),
             None => write!(
                 f,
-                "; look at {function} at the state given: √s has no derivative at s = 0 (√(s + ε²) has), a power below 1 \
-                 and a logarithm have none at 0; if its derivatives are finite there, try a smaller step"
+                "; look first at the fields of the system and its input: one may be NaN, infinite or too large; then at \
+                 {function}: √s has no derivative at s = 0 (√(s + ε²) has), a power below 1 and a logarithm have none at \
+                 0; if its derivatives are finite at the state given, the step leaves the region where they are: try a \
+                 smaller step"
             ),
         }
     }

@@ -1,5 +1,7 @@
 //! Types and methods that derivatives are taken of: where a name may be a user's own, rustc has to agree.
 
+use crate::system::Quantity;
+
 /// The number type `S` or `bool`: what a field or constant of a system is where a body computes with it.
 ///
 /// `#[rayleigh_system]` sees the tokens of a body and not its types. A type with operators of its own, or a
@@ -10,17 +12,41 @@
     label = "derivatives are taken as if this were `{S}`",
     note = "take the number out of it where it stands, as in `self.k.0` or `*self.k`"
 )]
-pub trait Plain<S> {}
+pub trait Plain<S> {
+    /// Whether it is NaN.
+    fn is_no_number(&self) -> bool;
+}
 
-impl Plain<Self> for f64 {}
-impl Plain<Self> for f32 {}
-impl Plain<Self> for bool {}
+impl Plain<Self> for f64 {
+    fn is_no_number(&self) -> bool {
+        self.is_nan()
+    }
+}
+
+impl Plain<Self> for f32 {
+    fn is_no_number(&self) -> bool {
+        self.is_nan()
+    }
+}
+
+impl Plain<Self> for bool {
+    fn is_no_number(&self) -> bool {
+        false
+    }
+}
 
 /// The fields and constants that the derivatives of a system take for numbers and truth values, and the
 /// methods that they take for those of slices.
 pub trait PlainFields {
-    /// Uses all of them. It is there to be checked: with a parameter, it is never compiled.
-    fn plain_fields<Never>(&self);
+    /// Uses those that [`first_no_number`](Self::first_no_number) does not. It is there to be checked: with
+    /// a parameter, it is never compiled.
+    fn plain_fields<Never>(&self) {}
+
+    /// Uses the first numbers among them, by name: the first that is NaN.
+    #[cold]
+    fn first_no_number(&self) -> Option<(Quantity, usize)> {
+        None
+    }
 }
 
 /// The result of [`SliceMethods`].

@@ -240,7 +240,11 @@ where
         let straight = work.with_share(8, || forwards.directly(h, guess.as_ref(), WELL));
         let failure = match straight {
             Ok(shot) => return Ok((false, shot)),
-            Err(failure @ (ExactError::ConjugatePoints { .. } | ExactError::DegenerateLagrangian { .. })) => {
+            Err(
+                failure @ (ExactError::ConjugatePoints { .. }
+                | ExactError::DegenerateLagrangian { .. }
+                | ExactError::SingularCoordinates { .. }),
+            ) => {
                 return Err(failure);
             }
             // Newton's method has lost a motion that its start does tell.

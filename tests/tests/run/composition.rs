@@ -222,7 +222,8 @@ fn an_error_leaves_the_last_good_state_and_ends_the_run() {
     let start = State::from_velocity(&system, [10.0], [-5.0]).unwrap();
     let mut run = system.by(Composition::kahan_li_6(Trapezoidal), 0.5).run(start);
     let error = run.by_ref().take(10).find_map(Result::err).expect("the mass meets the wall");
-    assert!(matches!(error, StepError::NonFinite { .. } | StepError::NoRealSolution { .. }), "{error}");
+    let place = "√s has none at s";
+    assert!(matches!(error, StepError::NoDerivative { .. }) && error.to_string().contains(place), "{error}");
     assert!(run.time() > 1.0 && run.state().q[0] > 0.0 && run.state().p[0].is_finite());
     assert!(run.next().is_none());
 }

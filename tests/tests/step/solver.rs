@@ -72,7 +72,7 @@ mod refuses {
     fn a_result_that_overflows() {
         // q̄ = 1.6e308 is a number, q1 = 2.2e308 is not.
         let error = midpoint(&FREE, [1e308], [0.7 * 1.2e308], 1.0).unwrap_err();
-        assert_eq!(error, StepError::NonFinite { quantity: Quantity::Configuration, index: 0 });
+        assert_eq!(error, StepError::Overflow { quantity: Quantity::Configuration, index: 0 });
         // Neither is.
         let error = midpoint(&FREE, [1.7e308], [1e308], 1.0).unwrap_err();
         assert!(matches!(error, StepError::NonFinite { index: 0, .. }), "{error:?}");

@@ -5,6 +5,7 @@ use quote::{format_ident, quote};
 
 use super::super::model::{Home, Part, RayleighArguments, Source, System};
 use super::super::structure::{Engine, Structure};
+use super::item::PlainFields;
 use super::view::{self, arguments, owner, subject};
 
 /// The plain value of L (0) or R (1) at the vectors q and v.
@@ -41,6 +42,7 @@ pub fn lagrangian(
     structure: &Structure,
     derivatives: TokenStream,
     places: &[Option<TokenStream>; 2],
+    plain: &PlainFields,
 ) -> TokenStream {
     let scalar = &system.scalar;
     let n = system.degrees.times(1);
@@ -52,7 +54,8 @@ pub fn lagrangian(
         let (verification, places) = (verification(system, home), &places[usize::from(home == Home::View)]);
         let is_expanded = matches!(structure.engine, Engine::Expanded);
         let missing = (!is_expanded || places.is_some()).then(|| without_derivative(system, home));
-        quote!(#verification #missing #places)
+        let non_finite = non_finite_value(system, home, plain.names_fields);
+        quote!(#verification #missing #places #non_finite)
     };
     let of_view = system.has_view().then(|| asked(Home::View));
     let asked = asked(home);
@@ -98,6 +101,25 @@ fn without_derivative(system: &System<'_>, home: Home) -> TokenStream {
                 #(.or_else(|| ::dalembert::generated::missing::#others(self, q, v)))*
         }
     }
+}
+
+/// `fn non_finite_value`: of the input and the time that a view holds, and of fields.
+fn non_finite_value(system: &System<'_>, home: Home, names_fields: bool) -> Option<TokenStream> {
+    let generated = quote!(::dalembert::generated);
+    let is_view = home == Home::View;
+    let input = (is_view && system.input.is_some()).then(|| quote!(#generated::missing::input(&self.u)));
+    let time = (is_view && system.timed.any()).then(|| quote!(#generated::missing::time(self.t)));
+    let owner = owner(home);
+    let fields = names_fields.then(|| quote!(#generated::PlainFields::first_no_number(#owner)));
+    let mut values = input.into_iter().chain(time).chain(fields);
+    let (first, others) = (values.next()?, values);
+    // missing::input(&self.u).or_else(|| PlainFields::first_no_number(self.system))
+    Some(quote! {
+        #[cold]
+        fn non_finite_value(&self) -> ::core::option::Option<(#generated::Quantity, usize)> {
+            #first #(.or_else(|| #others))*
+        }
+    })
 }
 
 /// `fn verify_generated` and `fn verify_slopes`: of L, R and f, as far as `home` has them.

@@ -1,11 +1,12 @@
 //! The user's item, written again: its attributes and conditions, the struct of a function's parameters, and
 //! what stands beside either engine's implementation.
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Delimiter, Literal, TokenStream, TokenTree};
 use quote::{ToTokens, quote, quote_spanned};
 use syn::{AttrStyle, Attribute, Ident};
 
 use super::super::diagnostics::span_of;
+use super::super::hygiene::unmarked;
 use super::super::model::{Function, Role, Source, System};
 use super::super::portable;
 
@@ -97,17 +98,41 @@ pub fn quiet() -> TokenStream {
 /// that methods of arrays are those of slices: other types have operators of their own, and traits methods.
 pub fn are_plain(
     system: &System<'_>,
-    of_type: [(Ident, Vec<TokenStream>); 2],
+    of_type: [(Ident, Vec<(TokenStream, bool)>); 2],
     of_arrays: &[(Ident, usize)],
-) -> TokenStream {
+) -> PlainFields {
     let System { name, scalar, .. } = system;
-    let checks = of_type.into_iter().filter(|(_, tokens)| !tokens.is_empty()).map(|(ty, tokens)| {
-        let count = Literal::usize_unsuffixed(tokens.len());
-        // Errors are shown where the field is read.
-        let references = tokens.iter().map(|tokens| {
-            let span = span_of(tokens);
-            quote_spanned!(span=> &(#tokens))
+    // Errors are shown where the field is read.
+    let reference = |tokens: &TokenStream| {
+        let span = span_of(tokens);
+        quote_spanned!(span=> &(#tokens))
+    };
+    let [(number, numbers), (truth, truths)] = of_type;
+    let (mut numbers, mut others): (Vec<_>, Vec<_>) =
+        numbers.into_iter().partition(|(tokens, is_free)| *is_free && is_place(tokens.clone()));
+    others.extend(numbers.split_off(numbers.len().min(MOST_NAMED)));
+    let [numbers, others, truths] =
+        [numbers, others, truths].map(|of| of.into_iter().map(|(tokens, _)| tokens).collect::<Vec<_>>());
+    let named = (!numbers.is_empty()).then(|| {
+        let count = Literal::usize_unsuffixed(numbers.len());
+        let fields = numbers.iter().map(|tokens| {
+            let (name, reference) = (field_name(tokens), reference(tokens));
+            quote!((#name, #reference))
         });
+        quote! {
+            #[cold]
+            fn first_no_number(&self) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+                let fields: [(&'static str, &dyn ::dalembert::generated::Plain<#number>); #count] =
+                    [#(#fields),*];
+                ::dalembert::generated::missing::field(&fields)
+            }
+        }
+    });
+    let checks =
+        [(number.clone(), others), (truth, truths)].into_iter().filter(|(_, tokens)| !tokens.is_empty());
+    let checks = checks.map(|(ty, tokens)| {
+        let count = Literal::usize_unsuffixed(tokens.len());
+        let references = tokens.iter().map(reference);
         quote!(let _: [&dyn ::dalembert::generated::Plain<#ty>; #count] = [#(#references),*];)
     });
     let mut checks: Vec<_> = checks.collect();
@@ -123,16 +148,57 @@ pub fn are_plain(
             let _: [::dalembert::generated::OfSlice; #count] = [#(#calls),*];
         });
     }
-    if checks.is_empty() {
-        return TokenStream::new();
-    }
-    quote! {
-        impl ::dalembert::generated::PlainFields for #name {
+    let checked = (!checks.is_empty()).then(|| {
+        quote! {
             fn plain_fields<Never>(&self) {
                 #(#checks)*
             }
         }
-    }
+    });
+    let names_fields = named.is_some();
+    let implementation = (names_fields || checked.is_some()).then(|| {
+        quote! {
+            impl ::dalembert::generated::PlainFields for #name {
+                #checked
+
+                #named
+            }
+        }
+    });
+    PlainFields { implementation, names_fields }
+}
+
+/// The most numbers that are called by name where one is NaN: no program is to be long for what an error
+/// asks for.
+const MOST_NAMED: usize = 64;
+
+/// The agreement with rustc on what is read of the system.
+#[derive(Default)]
+pub struct PlainFields {
+    /// The `impl` that rustc checks.
+    pub implementation: Option<TokenStream>,
+    /// Whether it finds a number that is NaN.
+    pub names_fields: bool,
+}
+
+/// Whether the tokens are a place, `self.c[0].1` or `Self::RATE`: reading it runs nothing of the user's.
+fn is_place(tokens: TokenStream) -> bool {
+    tokens.into_iter().all(|token| match token {
+        TokenTree::Ident(_) | TokenTree::Literal(_) => true,
+        TokenTree::Punct(punct) => matches!(punct.as_char(), '.' | ':'),
+        TokenTree::Group(group) => {
+            let mut index = group.stream().into_iter();
+            group.delimiter() == Delimiter::Bracket
+                && matches!((index.next(), index.next()), (Some(TokenTree::Literal(_)), None))
+        }
+    })
+}
+
+/// The name of a field or constant, as the body reads it: `k`, `c[0]`, `RATE`.
+fn field_name(tokens: &TokenStream) -> String {
+    let text = tokens.to_string().replace(' ', "");
+    let own = text.strip_prefix("self.").or_else(|| text.strip_prefix("Self::"));
+    unmarked(own.unwrap_or(&text))
 }
 
 /// Has rustc agree that names taken for bindings are none of constants: a constant has another type.

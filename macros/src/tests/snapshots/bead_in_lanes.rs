@@ -30,14 +30,20 @@ const _: () = {
     type Vector = SVector<f64, 1>;
     impl ::dalembert::generated::PlainFields for Bead {
         fn plain_fields<Never>(&self) {
-            let _: [&dyn ::dalembert::generated::Plain<f64>; 5] = [
-                &(Self::WALL),
-                &(self.k),
-                &(self.m),
-                &(self.g),
-                &(self.r),
-            ];
             let _: [&dyn ::dalembert::generated::Plain<bool>; 1] = [&(self.has_wall)];
+        }
+        #[cold]
+        fn first_no_number(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            let fields: [(&'static str, &dyn ::dalembert::generated::Plain<f64>); 5] = [
+                ("WALL", &(Self::WALL)),
+                ("k", &(self.k)),
+                ("m", &(self.m)),
+                ("g", &(self.g)),
+                ("r", &(self.r)),
+            ];
+            ::dalembert::generated::missing::field(&fields)
         }
     }
     /// Known at compile time:
@@ -114,6 +120,12 @@ const _: () = {
         ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
             ::dalembert::generated::verification::rayleigh_slope(self, q, v)
+        }
+        #[cold]
+        fn non_finite_value(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            ::dalembert::generated::PlainFields::first_no_number(self)
         }
     }
     #[automatically_derived]

@@ -29,12 +29,20 @@ const _: () = {
     type Vector = SVector<f64, 4>;
     impl ::dalembert::generated::PlainFields for Chain {
         fn plain_fields<Never>(&self) {
-            let _: [&dyn ::dalembert::generated::Plain<f64>; 1] = [&(self.beta)];
             use ::dalembert::generated::SliceMethods as _;
             let _: [::dalembert::generated::OfSlice; 2] = [
                 [0f64; 4].iter(),
                 [0f64; 4].windows(),
             ];
+        }
+        #[cold]
+        fn first_no_number(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            let fields: [(&'static str, &dyn ::dalembert::generated::Plain<f64>); 1] = [
+                ("beta", &(self.beta)),
+            ];
+            ::dalembert::generated::missing::field(&fields)
         }
     }
     /// Known at compile time:
@@ -148,6 +156,12 @@ const _: () = {
             v: &Vector,
         ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             ::dalembert::generated::verification::lagrangian_slope(self, q, v)
+        }
+        #[cold]
+        fn non_finite_value(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            ::dalembert::generated::PlainFields::first_no_number(self)
         }
     }
     #[automatically_derived]

@@ -31,16 +31,20 @@ const _: () = {
     };
     type Vector = SVector<f64, 2>;
     impl ::dalembert::generated::PlainFields for DoublePendulum {
-        fn plain_fields<Never>(&self) {
-            let _: [&dyn ::dalembert::generated::Plain<f64>; 7] = [
-                &(self.m[0]),
-                &(self.m[1]),
-                &(self.l[0]),
-                &(self.l[1]),
-                &(self.g),
-                &(self.c[0]),
-                &(self.c[1]),
+        #[cold]
+        fn first_no_number(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            let fields: [(&'static str, &dyn ::dalembert::generated::Plain<f64>); 7] = [
+                ("m[0]", &(self.m[0])),
+                ("m[1]", &(self.m[1])),
+                ("l[0]", &(self.l[0])),
+                ("l[1]", &(self.l[1])),
+                ("g", &(self.g)),
+                ("c[0]", &(self.c[0])),
+                ("c[1]", &(self.c[1])),
             ];
+            ::dalembert::generated::missing::field(&fields)
         }
     }
     /// Known at compile time:
@@ -141,6 +145,12 @@ const _: () = {
         ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
             ::dalembert::generated::verification::rayleigh_slope(self, q, v)
+        }
+        #[cold]
+        fn non_finite_value(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            ::dalembert::generated::PlainFields::first_no_number(self)
         }
     }
     #[automatically_derived]

@@ -52,13 +52,17 @@ const _: () = {
     };
     type Vector = SVector<f64, 1>;
     impl ::dalembert::generated::PlainFields for Arm {
-        fn plain_fields<Never>(&self) {
-            let _: [&dyn ::dalembert::generated::Plain<f64>; 4] = [
-                &(self.m),
-                &(self.c),
-                &(self.gain),
-                &(Self::RATE),
+        #[cold]
+        fn first_no_number(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            let fields: [(&'static str, &dyn ::dalembert::generated::Plain<f64>); 4] = [
+                ("m", &(self.m)),
+                ("c", &(self.c)),
+                ("gain", &(self.gain)),
+                ("RATE", &(Self::RATE)),
             ];
+            ::dalembert::generated::missing::field(&fields)
         }
     }
     /// Known at compile time:
@@ -121,6 +125,12 @@ const _: () = {
             ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
             ::dalembert::generated::verification::rayleigh_slope(self, q, v)
         }
+        #[cold]
+        fn non_finite_value(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            ::dalembert::generated::PlainFields::first_no_number(self)
+        }
     }
     #[automatically_derived]
     impl Lagrangian<1> for DrivenArm<'_> {
@@ -167,6 +177,16 @@ const _: () = {
             ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
             ::dalembert::generated::verification::rayleigh_slope(self, q, v)?;
             ::dalembert::generated::verification::force_slope(self, q, v)
+        }
+        #[cold]
+        fn non_finite_value(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            ::dalembert::generated::missing::input(&self.u)
+                .or_else(|| ::dalembert::generated::missing::time(self.t))
+                .or_else(|| ::dalembert::generated::PlainFields::first_no_number(
+                    self.system,
+                ))
         }
         #[inline]
         fn later<T>(&self, elapsed: f64, evaluate: impl FnOnce(&Self) -> T) -> T {

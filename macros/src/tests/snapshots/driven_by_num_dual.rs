@@ -224,6 +224,13 @@ const _: () = {
                 .or_else(|| ::dalembert::generated::missing::rayleigh(self, q, v))
                 .or_else(|| ::dalembert::generated::missing::force(self, q, v))
         }
+        #[cold]
+        fn non_finite_value(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            ::dalembert::generated::missing::input(&self.u)
+                .or_else(|| ::dalembert::generated::missing::time(self.t))
+        }
         #[inline]
         fn later<T>(&self, elapsed: f64, evaluate: impl FnOnce(&Self) -> T) -> T {
             evaluate(

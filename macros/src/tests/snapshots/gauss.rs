@@ -33,15 +33,19 @@ const _: () = {
     };
     type Vector = SVector<f64, 2>;
     impl ::dalembert::generated::PlainFields for Cart {
-        fn plain_fields<Never>(&self) {
-            let _: [&dyn ::dalembert::generated::Plain<f64>; 6] = [
-                &(self.l),
-                &(self.m),
-                &(self.end),
-                &(self.k),
-                &(self.c),
-                &(self.a),
+        #[cold]
+        fn first_no_number(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            let fields: [(&'static str, &dyn ::dalembert::generated::Plain<f64>); 6] = [
+                ("l", &(self.l)),
+                ("m", &(self.m)),
+                ("end", &(self.end)),
+                ("k", &(self.k)),
+                ("c", &(self.c)),
+                ("a", &(self.a)),
             ];
+            ::dalembert::generated::missing::field(&fields)
         }
     }
     /// Known at compile time:
@@ -163,6 +167,12 @@ const _: () = {
                 }
                 _ => ::core::option::Option::None,
             }
+        }
+        #[cold]
+        fn non_finite_value(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            ::dalembert::generated::PlainFields::first_no_number(self)
         }
     }
     #[automatically_derived]

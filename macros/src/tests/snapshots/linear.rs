@@ -31,8 +31,15 @@ const _: () = {
     };
     type Vector = SVector<f64, 2>;
     impl ::dalembert::generated::PlainFields for Linear {
-        fn plain_fields<Never>(&self) {
-            let _: [&dyn ::dalembert::generated::Plain<f64>; 2] = [&(self.k), &(self.c)];
+        #[cold]
+        fn first_no_number(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            let fields: [(&'static str, &dyn ::dalembert::generated::Plain<f64>); 2] = [
+                ("k", &(self.k)),
+                ("c", &(self.c)),
+            ];
+            ::dalembert::generated::missing::field(&fields)
         }
     }
     /// Known at compile time:
@@ -101,6 +108,12 @@ const _: () = {
         ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
             ::dalembert::generated::verification::rayleigh_slope(self, q, v)
+        }
+        #[cold]
+        fn non_finite_value(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            ::dalembert::generated::PlainFields::first_no_number(self)
         }
     }
     #[automatically_derived]

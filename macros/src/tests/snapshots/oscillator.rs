@@ -30,12 +30,16 @@ const _: () = {
     };
     type Vector = SVector<f64, 1>;
     impl ::dalembert::generated::PlainFields for Oscillator {
-        fn plain_fields<Never>(&self) {
-            let _: [&dyn ::dalembert::generated::Plain<f64>; 3] = [
-                &(self.m),
-                &(self.k),
-                &(self.r),
+        #[cold]
+        fn first_no_number(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            let fields: [(&'static str, &dyn ::dalembert::generated::Plain<f64>); 3] = [
+                ("m", &(self.m)),
+                ("k", &(self.k)),
+                ("r", &(self.r)),
             ];
+            ::dalembert::generated::missing::field(&fields)
         }
     }
     /// Known at compile time:
@@ -102,6 +106,12 @@ const _: () = {
         ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
             ::dalembert::generated::verification::rayleigh_slope(self, q, v)
+        }
+        #[cold]
+        fn non_finite_value(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            ::dalembert::generated::PlainFields::first_no_number(self)
         }
     }
     #[automatically_derived]

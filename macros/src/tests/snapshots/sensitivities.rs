@@ -50,11 +50,15 @@ const _: () = {
     };
     type Vector = SVector<f64, 1>;
     impl ::dalembert::generated::PlainFields for Joint {
-        fn plain_fields<Never>(&self) {
-            let _: [&dyn ::dalembert::generated::Plain<f64>; 2] = [
-                &(self.l),
-                &(self.c[0]),
+        #[cold]
+        fn first_no_number(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            let fields: [(&'static str, &dyn ::dalembert::generated::Plain<f64>); 2] = [
+                ("l", &(self.l)),
+                ("c[0]", &(self.c[0])),
             ];
+            ::dalembert::generated::missing::field(&fields)
         }
     }
     /// Known at compile time:
@@ -117,6 +121,12 @@ const _: () = {
             ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
             ::dalembert::generated::verification::rayleigh_slope(self, q, v)
         }
+        #[cold]
+        fn non_finite_value(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            ::dalembert::generated::PlainFields::first_no_number(self)
+        }
     }
     #[automatically_derived]
     impl Lagrangian<1> for DrivenJoint<'_> {
@@ -163,6 +173,15 @@ const _: () = {
             ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
             ::dalembert::generated::verification::rayleigh_slope(self, q, v)?;
             ::dalembert::generated::verification::force_slope(self, q, v)
+        }
+        #[cold]
+        fn non_finite_value(
+            &self,
+        ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
+            ::dalembert::generated::missing::input(&self.u)
+                .or_else(|| ::dalembert::generated::PlainFields::first_no_number(
+                    self.system,
+                ))
         }
     }
     #[automatically_derived]

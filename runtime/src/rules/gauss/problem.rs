@@ -11,7 +11,7 @@ use nalgebra::SVector;
 use super::Gauss;
 use super::coefficients::Coefficients;
 use crate::numbers::{Blank, Compensated, LaneVector, Lanes, Scalar, lanes::lane};
-use crate::step::cause::explained;
+use crate::step::cause::{cause_of, explained};
 use crate::step::{Quantity, Report, StepError};
 use crate::system::{ForcedLagrangian, GeneratedDiffers, Stages};
 
@@ -222,10 +222,10 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
                 let (q, v) = (lane(&q, i), lane(v, i));
                 let found = self.system.later(self.elapsed(i), |at| at.without_derivative(&q, &v));
                 if found.is_some() {
-                    return found;
+                    return cause_of(self.system, found);
                 }
             }
-            None
+            cause_of(self.system, None)
         })
     }
 

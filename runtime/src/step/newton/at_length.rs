@@ -11,9 +11,8 @@ use crate::numbers::{
 };
 #[cfg(feature = "std")]
 use crate::step::cause::explained;
-use crate::step::{Momenta, Quantity, Report, State, StepError, StepKernel};
-#[cfg(feature = "std")]
-use crate::system::NoDerivative;
+use crate::step::{Momenta, Report, State, StepError, StepKernel};
+use crate::system::Quantity;
 
 /// A function of (q, v̄, h).
 type OfStep<'f, S, const N: usize, T> = dyn Fn(&SVector<S, N>, &SVector<S, N>, S) -> T + 'f;
@@ -28,9 +27,9 @@ pub(crate) struct StepEquations<'f, S, M, const N: usize> {
     pub(crate) momenta: &'f OfStep<'f, S, N, Momenta<S, N>>,
     pub(crate) inertia: &'f Inertia<'f, S, N>,
     pub(crate) cancelling: &'f OfStep<'f, S, N, SVector<S, N>>,
-    /// The function without a derivative, where there is one.
+    /// The cause of numbers that are not finite, where it is known.
     #[cfg(feature = "std")]
-    pub(crate) cause: &'f OfStep<'f, S, N, Option<NoDerivative>>,
+    pub(crate) cause: &'f OfStep<'f, S, N, Option<StepError>>,
     pub(crate) state: &'f State<S, N>,
     pub(crate) h: S,
 }

@@ -6,8 +6,8 @@ use super::rounding::{estimated_floor, held_against};
 use super::{Equation, Solution, is_known_at, is_small_beside, largest};
 use crate::numbers::{NewtonMatrix, Scalar, Singular, nonlinear::in_units_of};
 use crate::step::cause::explained;
-use crate::step::{Momenta, Quantity, Report, State, StepError, StepKernel};
-use crate::system::NoDerivative;
+use crate::step::{Momenta, Report, State, StepError, StepKernel};
+use crate::system::Quantity;
 
 /// The best iterate of at most `bound` undamped Newton iterations, and whether it is the solution, by the
 /// definition of `rounding.rs`.
@@ -20,7 +20,7 @@ pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     (evaluate, finish, cause): (
         impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
         impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
-        impl Fn(&SVector<S, N>, &SVector<S, N>) -> Option<NoDerivative>,
+        impl Fn(&SVector<S, N>, &SVector<S, N>) -> Option<StepError>,
     ),
     State { q, p }: &State<S, N>,
     guess: SVector<S, N>,

@@ -27,6 +27,11 @@ pub enum ExactError {
         /// The coordinate whose pivot vanishes.
         column: usize,
     },
+    /// ∂²L/∂v² is singular where the motion starts and regular beside it: the coordinates are singular there.
+    SingularCoordinates {
+        /// The coordinate whose pivot vanishes.
+        column: usize,
+    },
     /// The motion leaves the region where L, R and f are finite.
     MotionNotFinite {
         /// The time on the segment, from 0 to h.
@@ -90,6 +95,7 @@ impl ExactError {
         match error {
             StepError::NonFinite { quantity, index } => Self::NonFinite { quantity, index },
             StepError::DegenerateLagrangian { column } => Self::DegenerateLagrangian { time: 0.0, column },
+            StepError::SingularCoordinates { column } => Self::SingularCoordinates { column },
             _ => Self::MotionNotFinite { time: 0.0 },
         }
     }
@@ -99,14 +105,13 @@ impl fmt::Display for ExactError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::StepSize { h } => write!(f, "step size {h} is zero or not finite; give a finite h ≠ 0"),
-            Self::NonFinite { quantity, index } => {
-                write!(f, "{quantity} {index} is NaN or infinite; check the points given")
-            }
+            &Self::NonFinite { quantity, index } => StepError::NonFinite { quantity, index }.fmt(f),
             Self::DegenerateLagrangian { time, column } => write!(
                 f,
                 "∂²L/∂v² is singular at t = {time} (pivot of coordinate {column}): accelerations are not determined; \
                  give every coordinate a kinetic energy, or remove it"
             ),
+            &Self::SingularCoordinates { column } => StepError::SingularCoordinates { column }.fmt(f),
             Self::MotionNotFinite { time } => write!(
                 f,
                 "the motion leaves the region where L, R and f are finite at t = {time}; try a smaller h"

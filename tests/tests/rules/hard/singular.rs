@@ -70,11 +70,11 @@ fn an_arm_near_alignment() {
         assert_eq!(effort.stopped, None, "m = {m:e}");
         assert!(worst < 1e-3, "m = {m:e}: {worst:e}");
     }
-    // m = 0 and aligned: the masses do not determine the velocities.
+    // m = 0 and aligned: the masses do not determine the velocities, and do where the arms bend.
     let singular = Arm { m: 0.0, r: 0.0 };
     assert_eq!(
         State::from_velocity(&singular, [0.3, 0.3], [0.2, 0.25]),
-        Err(StepError::DegenerateLagrangian { column: 1 })
+        Err(StepError::SingularCoordinates { column: 1 })
     );
 }
 
