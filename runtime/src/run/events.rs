@@ -264,7 +264,7 @@ where
     /// Ends the watch with `error`; a step from `time` that cannot be watched is not taken, where the run can
     /// go back.
     #[cold]
-    pub(super) fn refuse(&mut self, error: EventError, time: f64) -> EventError {
+    pub(super) fn refuse(&mut self, mut error: EventError, time: f64) -> EventError {
         self.ended = true;
         // What was found of other functions before the error was met.
         (self.found, self.step) = ([None; ROOTS], None);
@@ -273,6 +273,9 @@ where
             && self.dense.run().time() != time
         {
             stop(&mut self.dense, from, state);
+        }
+        if let EventError::Chattering { stands, .. } = &mut error {
+            *stands = self.dense.run().time();
         }
         error
     }

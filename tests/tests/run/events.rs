@@ -146,7 +146,12 @@ fn impacts_that_accumulate_are_chattering() {
         match watch.next().unwrap() {
             Ok(event) => watch.restart(State { q: event.state.q, p: event.state.p * -0.5 }),
             Err(error) => {
-                assert!(matches!(error, EventError::Chattering { .. }) && impact > 40, "{impact}: {error}");
+                let EventError::Chattering { index: 0, time, stands } = error else { panic!("{error}") };
+                assert!(impact > 40 && time == stands, "{impact}: {error}");
+                assert_eq!(stands, watch.run().time());
+                let text = error.to_string();
+                let said = format!("events of function 0 than can be told apart near the time {time}");
+                assert!(text.contains(&said) && text.contains("in the last good state"), "{text}");
                 // √2 + √2 (1 + ½ + …)
                 assert!((watch.run().time() - 3.0 * 2.0_f64.sqrt()).abs() < 0.2);
                 assert!(watch.next().is_none());
@@ -435,6 +440,13 @@ fn what_cannot_be_watched_is_an_error() {
     let mut run = by.run(UP);
     let error = run.watch(|at| [(200.0 * at.q[0]).sin()]).until(2.0).find_map(Result::err).unwrap();
     assert!(matches!(error, EventError::Chattering { .. }), "{error}");
+    assert!(error.to_string().contains(&format!("the run stands at {}, in the last good", run.time())));
+    // A watch without an end cannot go back: the run stands behind the events.
+    let mut run = by.run(UP);
+    let error = run.watch(|at| [1.0, (200.0 * at.q[0]).sin()]).find_map(Result::err).unwrap();
+    let EventError::Chattering { index: 1, time, stands } = error else { panic!("{error}") };
+    assert!(time < stands && stands == run.time(), "{error}");
+    assert!(error.to_string().contains(&format!("stands at {stands}, at the end of that step")), "{error}");
     let mut run = by.run(UP);
     assert_eq!(run.watch(|at| [(40.0 * at.q[0]).sin()]).until(2.0).filter(|event| event.is_ok()).count(), 18);
     // Noise about 0.

@@ -22,8 +22,13 @@ pub enum EventError {
     /// More than 16 events lie in one step, or 256 restarts in none: they accumulate, the function is noise
     /// there, or the state after an impact presses against the surface that it is on.
     Chattering {
+        /// Which function: the surface is where it vanishes.
+        index: usize,
         /// The start of the step: the last event where they accumulate.
         time: f64,
+        /// The time of the run, whose state is the last good one: that start, or the end of the step where
+        /// the run cannot go back.
+        stands: f64,
     },
     /// Thousands of steps within one step do not tell how often the function vanishes: it is not smooth,
     /// or stays at 0 but for rounding.
@@ -66,11 +71,22 @@ impl fmt::Display for EventError {
                 "event function {index} is NaN or infinite near the time {time}; give one that is defined along \
                  the whole motion"
             ),
-            Self::Chattering { time } => write!(
-                f,
-                "more events than can be told apart near the time {time}: the motion rests on the surface; go on when \
-                 something pushes it away, or, of a function that is noise, with shorter steps"
-            ),
+            Self::Chattering { index, time, stands } => {
+                write!(
+                    f,
+                    "more events of function {index} than can be told apart near the time {time}: the motion rests on the \
+                     surface where it vanishes, or the function is noise; the run stands at {stands}, "
+                )?;
+                f.write_str(if stands == time {
+                    "in the last good state, from where that step began"
+                } else {
+                    "at the end of that step, whose events are not reported"
+                })?;
+                f.write_str(
+                    "; go on from its state when something pushes the motion away, or, of a function that is noise, with \
+                     shorter steps",
+                )
+            }
             Self::Unresolved { index, time } => write!(
                 f,
                 "event function {index} cannot be followed in the step from {time}: give a smooth one that does \

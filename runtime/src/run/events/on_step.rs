@@ -43,7 +43,9 @@ where
     pub(super) fn begin(&mut self) -> Result<[T::Scalar; K], EventError> {
         let (time, state) = (self.dense.run().time(), *self.dense.run().state());
         if self.restarts > RESTARTS {
-            return Err(EventError::Chattering { time });
+            // That which happened last: the state pushes against it.
+            let index = self.happened.iter().position(|happened| *happened).unwrap_or(0);
+            return Err(EventError::Chattering { index, time, stands: time });
         }
         let velocity = self.dense.velocity(time, &state)?;
         let moves = State { q: velocity * self.dense.run().step_size(), p: state.p };
@@ -171,7 +173,7 @@ where
                         elapsed,
                     };
                     let place = self.found.get_mut(count);
-                    *place.ok_or(EventError::Chattering { time: start.time })? = Some(found);
+                    *place.ok_or(curve.too_many())? = Some(found);
                     count += 1;
                 }
             }
@@ -269,11 +271,10 @@ where
 {
     /// The error where partial steps do not tell: after an impact it is the next one that they do not see.
     fn unresolved(&self) -> EventError {
-        let (index, time) = (self.index, self.start.time);
         if self.is_restarted {
-            EventError::Chattering { time }
+            self.too_many()
         } else {
-            EventError::Unresolved { index, time }
+            EventError::Unresolved { index: self.index, time: self.start.time }
         }
     }
 
@@ -333,6 +334,7 @@ where
     }
 
     fn too_many(&self) -> EventError {
-        EventError::Chattering { time: self.start.time }
+        let (index, time) = (self.index, self.start.time);
+        EventError::Chattering { index, time, stands: time }
     }
 }
