@@ -32,7 +32,7 @@ pub struct End<S, const N: usize> {
 }
 
 /// Why a member is not what was asked for.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum MemberError {
     /// A step failed, or the making of the start.
@@ -58,6 +58,13 @@ impl fmt::Display for MemberError {
     }
 }
 
+impl fmt::Debug for MemberError {
+    /// The text of [`Display`](fmt::Display), which `main` and `unwrap` print.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
 impl core::error::Error for MemberError {}
 
 impl From<StepError> for MemberError {
@@ -76,7 +83,7 @@ impl From<ToleranceError> for MemberError {
 }
 
 /// A member that is not what was asked for.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct Failure<S, const N: usize> {
     /// Its number.
     pub number: u64,
@@ -96,4 +103,11 @@ impl<S, const N: usize> fmt::Display for Failure<S, N> {
     }
 }
 
-impl<S: fmt::Debug, const N: usize> core::error::Error for Failure<S, N> {}
+impl<S, const N: usize> fmt::Debug for Failure<S, N> {
+    /// The text of [`Display`](fmt::Display), which `main` and `unwrap` print.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+impl<S, const N: usize> core::error::Error for Failure<S, N> {}

@@ -14,7 +14,7 @@ pub struct Progress {
 }
 
 /// A study that was cancelled by its progress callback.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct Cancelled<A> {
     /// The total over the members finished before it was cancelled: a prefix of the range.
     pub total: A,
@@ -29,4 +29,11 @@ impl<A> fmt::Display for Cancelled<A> {
     }
 }
 
-impl<A: fmt::Debug> core::error::Error for Cancelled<A> {}
+impl<A> fmt::Debug for Cancelled<A> {
+    /// The text of [`Display`](fmt::Display), which `main` and `unwrap` print.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+impl<A> core::error::Error for Cancelled<A> {}

@@ -5,7 +5,7 @@ use std::fmt;
 use dalembert::StepError;
 
 /// Why a call did nothing.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub enum Refusal {
     /// A step, or the start, has no result.
     Step { error: StepError, time: f64 },
@@ -102,6 +102,13 @@ impl fmt::Display for Refusal {
             Self::Absent(function) => write!(f, "{function} is not part of what this unit offers"),
             Self::NoSuchType(kind) => write!(f, "the unit has no variable of the type {kind}"),
         }
+    }
+}
+
+impl fmt::Debug for Refusal {
+    /// The text of [`Display`](fmt::Display), which `main` and `unwrap` print.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
     }
 }
 

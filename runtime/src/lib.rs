@@ -18,6 +18,18 @@
 
 extern crate self as dalembert;
 
+/// `Debug` of an error as its `Display`: `main` that returns it and `unwrap` print what is wrong.
+macro_rules! debug_by_display {
+    ($error:ident) => {
+        impl core::fmt::Debug for $error {
+            /// The text of `Display`.
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                core::fmt::Display::fmt(self, f)
+            }
+        }
+    };
+}
+
 pub mod derivative;
 pub mod generated;
 #[cfg(all(any(doc, doctest), feature = "theory"))]

@@ -3,6 +3,7 @@
 mod beside;
 mod circles;
 mod corrections_page;
+mod errors;
 mod floors;
 mod formatting;
 mod kept;
@@ -24,11 +25,12 @@ use crate::project;
 /// A check: what it found, each on a line of its own.
 type Check = fn(&Shell) -> Result<Vec<String>>;
 
-const CHECKS: [(&str, Check); 9] = [
+const CHECKS: [(&str, Check); 10] = [
     ("line widths of comments", widths::check),
     ("circles of modules", circles::check),
     ("floors of the runtime", |_| floors::check()),
     ("public names", root::check),
+    ("texts of errors", |_| errors::check()),
     ("openings of documentation", |_| prose::check()),
     ("links of pages", links::check),
     ("tests that pages name", |_| corrections_page::check()),

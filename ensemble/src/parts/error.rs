@@ -9,7 +9,6 @@ use parquet::errors::ParquetError;
 use crate::progress::Progress;
 
 /// Why parts are not written.
-#[derive(Debug)]
 #[non_exhaustive]
 pub enum PartsError {
     /// The file system refuses.
@@ -84,6 +83,13 @@ impl fmt::Display for PartsError {
                 write!(f, "cancelled after {done} of the {members} members of a part")
             }
         }
+    }
+}
+
+impl fmt::Debug for PartsError {
+    /// The text of [`Display`](fmt::Display), which `main` and `unwrap` print.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
     }
 }
 

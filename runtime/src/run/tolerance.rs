@@ -131,7 +131,7 @@ pub struct Breach {
 }
 
 /// Why no method was chosen.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum ToleranceError {
     /// The time or the tolerance is not a finite number above 0.

@@ -9,7 +9,7 @@ use crate::system::{Compared, Function, GeneratedDiffers, NoDerivative, Place, Q
 
 /// Why a step was not taken. The state that it started from is untouched; each message says whether a smaller
 /// step size can help.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 // A tag of one byte lies where a step has the first byte of its state: `Result<Step, StepError>` is then
 // copied as that byte and the rest, which has no alignment, and on a microcontroller byte by byte.
@@ -280,5 +280,7 @@ fn non_finite(f: &mut fmt::Formatter<'_>, quantity: Quantity, index: usize) -> f
         }
     }
 }
+
+debug_by_display!(StepError);
 
 impl core::error::Error for StepError {}

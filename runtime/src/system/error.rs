@@ -43,7 +43,7 @@ pub enum Compared {
 
 /// The derivatives generated belong to another function than the one written: it has another value, or
 /// another slope ([`verification`](crate::system::verification)).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct GeneratedDiffers {
     /// Which function.
     pub function: Function,
@@ -84,5 +84,7 @@ impl fmt::Display for GeneratedDiffers {
         )
     }
 }
+
+debug_by_display!(GeneratedDiffers);
 
 impl core::error::Error for GeneratedDiffers {}

@@ -5,7 +5,7 @@ use core::fmt;
 use crate::system::{Function, Place};
 
 /// A derivative of L, R or f that is NaN or infinite.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct NoDerivative {
     /// Which function.
     pub function: Function,
@@ -32,5 +32,7 @@ impl fmt::Display for NoDerivative {
         }
     }
 }
+
+debug_by_display!(NoDerivative);
 
 impl core::error::Error for NoDerivative {}

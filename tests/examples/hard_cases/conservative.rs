@@ -4,7 +4,9 @@ use std::f64::consts::TAU;
 
 use anyhow::Result;
 use dalembert::system::ForcedLagrangian;
-use dalembert::{Composition, Discrete, Discretise, Gauss, Midpoint, Splitting, State, Trapezoidal};
+use dalembert::{
+    Composition, Discrete, Discretise, Gauss, Midpoint, Splitting, State, StepError, Trapezoidal,
+};
 use dalembert_examples::baseline::{self, Method};
 use dalembert_examples::picture::{Curve, Dash, Mark, Panel, colour, linear, logarithmic};
 use dalembert_tests::hard::{
@@ -57,8 +59,16 @@ pub fn outcome(effort: &Effort) -> String {
     match effort.stopped {
         None => "–".to_owned(),
         Some(error) => {
-            let text = format!("{error:?}");
-            let name = text.split(' ').next().unwrap_or_default().to_owned();
+            let name = match error {
+                StepError::NonFinite { .. } => "NonFinite",
+                StepError::Overflow { .. } => "Overflow",
+                StepError::NoDerivative { .. } => "NoDerivative",
+                StepError::NoRealSolution { .. } => "NoRealSolution",
+                StepError::SingularNewtonMatrix { .. } => "SingularNewtonMatrix",
+                StepError::LostPrecision { .. } => "LostPrecision",
+                StepError::NotConverged { .. } => "NotConverged",
+                _ => "StepError",
+            };
             format!("`{name}` after {} steps", effort.steps)
         }
     }

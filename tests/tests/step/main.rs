@@ -11,6 +11,7 @@ mod inputs;
 mod legendre;
 mod no_numbers;
 mod oscillator_flow;
+mod printed;
 mod random_systems;
 mod rest;
 mod rest_by_gauss;

@@ -119,7 +119,7 @@ fn on_clock(time: f64, clock: f64) -> f64 {
 }
 
 /// Why there is no state at a time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum TimeError {
     /// The run's own step failed, or the one to the time asked for.
@@ -164,6 +164,8 @@ impl fmt::Display for TimeError {
         }
     }
 }
+
+debug_by_display!(TimeError);
 
 impl core::error::Error for TimeError {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {

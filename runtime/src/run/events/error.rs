@@ -7,7 +7,7 @@ use crate::step::StepError;
 
 /// Why a run could not be watched any further. The run stands where the step began that could not be watched,
 /// at the last event perhaps; one that cannot go back, for want of an end or of terminal events, at its end.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum EventError {
     /// The run's own step failed, or one within it.
@@ -106,6 +106,8 @@ impl fmt::Display for EventError {
         }
     }
 }
+
+debug_by_display!(EventError);
 
 impl core::error::Error for EventError {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {

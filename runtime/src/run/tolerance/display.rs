@@ -105,4 +105,6 @@ impl fmt::Display for Breach {
     }
 }
 
+debug_by_display!(ToleranceError);
+
 impl core::error::Error for ToleranceError {}

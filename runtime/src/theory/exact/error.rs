@@ -5,7 +5,7 @@ use core::fmt;
 use crate::step::{Quantity, StepError};
 
 /// Why an exact discrete object was not computed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum ExactError {
     /// The step size is zero or not finite.
@@ -152,5 +152,7 @@ impl fmt::Display for ExactError {
         }
     }
 }
+
+debug_by_display!(ExactError);
 
 impl core::error::Error for ExactError {}

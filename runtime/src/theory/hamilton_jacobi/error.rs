@@ -6,7 +6,7 @@ use crate::step::StepError;
 use crate::theory::rayleigh::{ConformalStep, ConformalStepError};
 
 /// Why a Hamilton–Jacobi object could not be evaluated.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum HamiltonJacobiError {
     /// An implicit equation has no solution in reach, or its matrix is singular.
@@ -164,6 +164,8 @@ impl fmt::Display for HamiltonJacobiError {
         }
     }
 }
+
+debug_by_display!(HamiltonJacobiError);
 
 impl core::error::Error for HamiltonJacobiError {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {

@@ -64,7 +64,7 @@ impl Subalgebra {
 }
 
 /// Why the subalgebra cannot be decided.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 #[non_exhaustive]
 pub enum SubalgebraError {
     /// The samples do not decide.
@@ -94,6 +94,8 @@ impl fmt::Display for SubalgebraError {
         }
     }
 }
+
+debug_by_display!(SubalgebraError);
 
 impl core::error::Error for SubalgebraError {}
 

@@ -41,7 +41,7 @@ pub struct ConformalStep {
 }
 
 /// Why it cannot be said of a step whether it is conformally symplectic.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum ConformalStepError {
     /// Fewer samples than decide, of those that lie apart.
@@ -284,5 +284,7 @@ impl fmt::Display for ConformalStepError {
         }
     }
 }
+
+debug_by_display!(ConformalStepError);
 
 impl core::error::Error for ConformalStepError {}

@@ -60,7 +60,7 @@ impl<const N: usize> Proportion<N> {
 }
 
 /// Why nothing can be said of D1D2R_d and D1D2L_d.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum ProportionError {
     /// The segments cannot be judged.
@@ -285,5 +285,7 @@ impl fmt::Display for ProportionError {
         }
     }
 }
+
+debug_by_display!(ProportionError);
 
 impl core::error::Error for ProportionError {}

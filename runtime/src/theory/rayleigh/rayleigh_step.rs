@@ -52,7 +52,7 @@ pub struct Entry {
 }
 
 /// Why it cannot be said of a step whether it is a Rayleigh step.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum RayleighStepError {
     /// No sample was given.
@@ -218,5 +218,7 @@ impl fmt::Display for RayleighStepError {
         }
     }
 }
+
+debug_by_display!(RayleighStepError);
 
 impl core::error::Error for RayleighStepError {}

@@ -3,7 +3,7 @@
 use core::fmt;
 
 /// Why the samples given cannot be judged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SampleError {
     /// Fewer samples than decide. Where they are held against each other, those count that lie apart.
@@ -54,5 +54,7 @@ impl fmt::Display for SampleError {
         }
     }
 }
+
+debug_by_display!(SampleError);
 
 impl core::error::Error for SampleError {}

@@ -7,7 +7,7 @@ use crate::system::Damping;
 
 /// Why a linear step has no modified system: which hypothesis of
 /// [`ModifiedLinearSystem`](crate::rayleigh::modified::ModifiedLinearSystem) fails.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum ModifiedLinearSystemError {
     /// Fewer than two states were given that lie apart by more than a derivative resolves: nothing says
@@ -111,11 +111,13 @@ impl fmt::Display for ModifiedLinearSystemError {
     }
 }
 
+debug_by_display!(ModifiedLinearSystemError);
+
 impl core::error::Error for ModifiedLinearSystemError {}
 
 /// Why the midpoint rule has no [`ModifiedSystem`](crate::rayleigh::modified::ModifiedSystem) here: the
 /// formulas are those of L = ½vᵀMv − V(q) and R = ½vᵀCv.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum ModifiedSystemError {
     /// The step size is zero or not finite.
@@ -168,5 +170,7 @@ impl fmt::Display for ModifiedSystemError {
         }
     }
 }
+
+debug_by_display!(ModifiedSystemError);
 
 impl core::error::Error for ModifiedSystemError {}

@@ -5,7 +5,7 @@ use core::fmt;
 use crate::step::StepError;
 
 /// Why a coordinate cannot be left out, or a reduced step not be taken.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum RouthError {
     /// There is no coordinate of this number.
@@ -78,5 +78,7 @@ impl fmt::Display for RouthError {
         }
     }
 }
+
+debug_by_display!(RouthError);
 
 impl core::error::Error for RouthError {}
