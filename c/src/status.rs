@@ -109,7 +109,7 @@ impl From<&StepError> for Status {
             StepError::Time { .. } => Self::Time,
             StepError::NonFinite { quantity, .. } => match quantity {
                 Quantity::Derivatives => Self::DerivativesNotFinite,
-                Quantity::Input | Quantity::Time => Self::InputNotFinite,
+                Quantity::InputEntry | Quantity::Time => Self::InputNotFinite,
                 Quantity::Field { .. } => Self::ParameterNan,
                 _ => Self::NotFinite,
             },

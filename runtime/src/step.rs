@@ -52,7 +52,7 @@ pub use parameters::DiscreteParameters;
 pub(crate) use regular::require_regular;
 pub use second_order::{DiscreteSecondOrder, StartByInput, StepHessian};
 pub use segment::DiscreteSegment;
-pub(crate) use solve::{or_without_guess, require_step_size, step_by, step_within_by};
+pub(crate) use solve::{of_any_step, or_without_guess, require_step_size, step_by, step_within_by};
 pub(crate) use solved_for_velocity::ClosedForm;
 pub use solved_for_velocity::SolvedForVelocity;
 pub(crate) use start::{of_equation_and_step, verify_momenta, verify_start};

@@ -31,7 +31,7 @@ use crate::numbers::{Compensated, Derivatives, Scalar, lanes::splat};
 use crate::step::{
     Defect, Discrete, DiscreteForce, DiscreteForceDerivatives, EquationAt, Flow, LegendreDerivatives,
     Linearization, Momenta, Quantity, Report, State, StateBy, Step, StepError, StepKernel,
-    newton::ITERATIONS,
+    newton::ITERATIONS, of_any_step,
 };
 use crate::system::{ForcedLagrangian, VectorField};
 use coefficients::Coefficients;
@@ -123,10 +123,9 @@ fn completed<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, cons
     let displacement = problem.sum(&solution.v);
     let ends = [problem.q0.plus(&displacement), problem.p0.plus(&problem.sum(&solution.rate))];
     let state = State { q: ends[0].value, p: ends[1].value };
-    StepError::require_finite(&state.q, Quantity::Configuration)?;
-    StepError::require_finite(&state.p, Quantity::Momentum)?;
+    state.require_reached()?;
     let velocity = displacement / problem.h;
-    StepError::require_finite(&velocity, Quantity::Velocity)?;
+    StepError::require_finite(&velocity, Quantity::Velocity).map_err(StepError::of_reached)?;
     if cfg!(debug_assertions) {
         problem.verify(&solution.v)?;
     }
@@ -358,7 +357,7 @@ fn solved<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, con
     let solution = match guess {
         Some(v) => {
             StepError::require_finite(v, Quantity::Velocity)?;
-            solve(&problem, v)?
+            solve(&problem, v).map_err(|error| of_any_step(system, state, error))?
         }
         None => solved_from(&problem, state)?,
     };

@@ -265,7 +265,7 @@ fn non_finite(f: &mut fmt::Formatter<'_>, quantity: Quantity, index: usize) -> f
              (√(s + ε²) has), a power below 1 and a logarithm have none at 0; if theirs are finite at the state \
              given, the step leaves the region where they are: try a smaller step"
         ),
-        Quantity::Input => write!(
+        Quantity::InputEntry => write!(
             f,
             "entry {index} of the input u is NaN or infinite; look at what gives the input, a controller or a sensor"
         ),

@@ -86,7 +86,9 @@ impl<S: Scalar, const N: usize> State<S, N> {
         let momentum = |q: &SVector<S, N>, v: &SVector<S, N>| system.lagrangian_gradient(q, v).d2;
         let mass = |q: &SVector<S, N>, v: &SVector<S, N>| derivatives_apart(system, q, v).d22;
         newton::root_from_rest(&transform, &momentum, &mass, self, error).map_err(|error| match error {
-            StepError::NoRealSolution { residual, .. } => StepError::NoVelocity { residual },
+            StepError::NoRealSolution { residual, .. } | StepError::NotConverged { residual, .. } => {
+                StepError::NoVelocity { residual }
+            }
             StepError::SingularNewtonMatrix { column, .. } => {
                 explained_by_lagrangian(system, &self.q, &rest, StepError::DegenerateLagrangian { column })
             }

@@ -61,7 +61,9 @@ where
                 Some(_) => Way::Damped { iterations: reached.iterations },
                 None => Way::Every { iterations: reached.iterations, start: start.as_slice() },
             };
-            of.solved(way, &reached.v).map_err(|error| in_arguments(state, guess).unwrap_or(error))?
+            of.solved(way, &reached.v).map_err(|error| {
+                in_arguments(state, guess).unwrap_or_else(|| of_any_step(system, state, error))
+            })?
         }
     };
     // An argument that is not finite shows here or has failed above: none is looked at before.
@@ -139,6 +141,35 @@ fn in_arguments<S: Scalar, const N: usize>(
 ) -> Option<StepError> {
     let of_guess = || guess.map_or(Ok(()), |v| StepError::require_finite(v, Quantity::Velocity));
     state.require_finite().and_then(|()| of_guess()).err()
+}
+
+/// The `error` of a step that a shorter one would have too, in place of one that asks for it: the state has
+/// no velocity.
+#[cfg_attr(feature = "std", cold)]
+#[cfg_attr(feature = "std", inline(never))]
+#[cfg_attr(not(feature = "std"), inline(always))]
+pub(crate) fn of_any_step<L: Lagrangian<N> + ?Sized, const N: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    error: StepError,
+) -> StepError {
+    let asks_for_another = matches!(
+        error,
+        StepError::SingularNewtonMatrix { .. }
+            | StepError::NoRealSolution { .. }
+            | StepError::NotConverged { .. }
+    );
+    if !cfg!(feature = "std") || !asks_for_another {
+        return error;
+    }
+    match state.velocity(system) {
+        Err(
+            of_state @ (StepError::DegenerateLagrangian { .. }
+            | StepError::SingularCoordinates { .. }
+            | StepError::NoVelocity { .. }),
+        ) => of_state,
+        _ => error,
+    }
 }
 
 /// The step `found`, from a guess if there was one. A guess that leads nowhere is not the step's fault: then

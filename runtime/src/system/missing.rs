@@ -51,7 +51,7 @@ pub fn force<L: Force<N> + ?Sized, const N: usize>(
 #[inline(never)]
 #[must_use]
 pub fn input<S: Scalar>(u: &[S]) -> Option<(Quantity, usize)> {
-    u.iter().position(|entry| !entry.is_finite()).map(|index| (Quantity::Input, index))
+    u.iter().position(|entry| !entry.is_finite()).map(|index| (Quantity::InputEntry, index))
 }
 
 /// A time that is NaN or infinite.

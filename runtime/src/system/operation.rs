@@ -107,10 +107,14 @@ impl Operation {
             Self::Division => "write s/(s² + ε²) for 1/s, or keep s away from 0",
             Self::Angle => "start away from that point, or take coordinates that need no angle there",
             Self::Length => "write √(x² + y² + ε²)",
-            Self::SquareRoot | Self::Power | Self::Logarithm => "keep s above 0, or try a smaller step",
-            Self::LogarithmOfSum => "keep s above −1, or try a smaller step",
-            Self::ArcSine | Self::AreaTangent => "keep |s| below 1, or try a smaller step",
-            Self::AreaCosine => "keep s above 1, or try a smaller step",
+            Self::SquareRoot | Self::Power | Self::Logarithm => {
+                "keep s above 0; if it is at the state given, try a smaller step"
+            }
+            Self::LogarithmOfSum => "keep s above −1; if it is at the state given, try a smaller step",
+            Self::ArcSine | Self::AreaTangent => {
+                "keep |s| below 1; if it is at the state given, try a smaller step"
+            }
+            Self::AreaCosine => "keep s above 1; if it is at the state given, try a smaller step",
         }
     }
 }

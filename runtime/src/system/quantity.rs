@@ -14,8 +14,8 @@ pub enum Quantity {
     Momentum,
     /// The derivatives of L, R or f, at the point where the step evaluated them.
     Derivatives,
-    /// The input u that a view holds.
-    Input,
+    /// An entry of the input u that a view holds.
+    InputEntry,
     /// The time t of a view.
     Time,
     /// A field of the system, or a constant of its block.
@@ -32,7 +32,7 @@ impl fmt::Display for Quantity {
             Self::Velocity => "velocity",
             Self::Momentum => "momentum",
             Self::Derivatives => "derivative of L, R or f",
-            Self::Input => "input",
+            Self::InputEntry => "entry of the input",
             Self::Time => "time",
             Self::Field { name } => return write!(f, "field {name}"),
         })

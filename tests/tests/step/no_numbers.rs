@@ -78,10 +78,10 @@ fn an_input_or_a_time_that_is_no_number_is_named() {
         let index = [0, 1, 0, 1][index];
         // A limit that is none is infinite, and to blame for nothing.
         by_each!(ARM.driven(u, 0.3), state, [Midpoint, Trapezoidal, Gauss::<2>], |found| {
-            named(found, Quantity::Input, index, &format!("entry {index} of the input u"));
+            named(found, Quantity::InputEntry, index, &format!("entry {index} of the input u"));
         });
         let bounded = ARM.driven(u, 0.3).by(Midpoint, 0.1).step_within(&state, 4);
-        named(bounded, Quantity::Input, index, "the input u");
+        named(bounded, Quantity::InputEntry, index, "the input u");
     }
     by_each!(ARM.driven([0.1, 0.2], NAN), state, [Midpoint, Trapezoidal, Gauss::<2>], |found| {
         named(found, Quantity::Time, 0, "the time given");

@@ -112,6 +112,10 @@ impl fmt::Display for ExactError {
                  give every coordinate a kinetic energy, or remove it"
             ),
             &Self::SingularCoordinates { column } => StepError::SingularCoordinates { column }.fmt(f),
+            Self::MotionNotFinite { time: 0.0 } => f.write_str(
+                "L, R or f is not finite where the motion starts; look at the fields of the system, and at roots, powers \
+                 and logarithms in them",
+            ),
             Self::MotionNotFinite { time } => write!(
                 f,
                 "the motion leaves the region where L, R and f are finite at t = {time}; try a smaller h"

@@ -250,14 +250,16 @@ fn what_has_no_first_step_has_a_name() {
     fn saturating(q: [f64; 1], v: [f64; 1]) -> f64 {
         (1.0 + v[0] * v[0]).sqrt() - 0.0 * q[0]
     }
-    let error = State { q: [0.0].into(), p: [1.1].into() }.velocity(&Saturating).unwrap_err();
-    let is_named = matches!(
-        error,
-        StepError::NoVelocity { .. }
-            | StepError::NotConverged { .. }
-            | StepError::DegenerateLagrangian { .. }
-    );
-    assert!(is_named && !error.to_string().contains("smaller step"), "{error}");
+    for p in [1.1, -2.0] {
+        let state = State { q: [0.0].into(), p: [p].into() };
+        let error = state.velocity(&Saturating).unwrap_err();
+        let is_named = matches!(error, StepError::NoVelocity { .. } | StepError::DegenerateLagrangian { .. });
+        assert!(is_named && !error.to_string().contains("smaller step"), "{error}");
+        // No step size enters: neither a step nor one from a guess asks for a smaller one.
+        for step in [Saturating.by(Midpoint, 0.1), Saturating.by(Midpoint, 0.1).near(&[0.5].into())] {
+            assert_eq!(step.step(&state).unwrap_err(), error);
+        }
+    }
     #[rayleigh_system]
     fn aligned(q: [f64; 2], v: [f64; 2]) -> f64 {
         (v[0] + 2.0 * v[1]).powi(4) - 0.0 * q[0]
