@@ -517,7 +517,7 @@ pub fn singular_mass() -> Result<Case> {
         breaks: "The oscillator of Mathews and Lakshmanan, L = ½(v² − q²)/(1 − q²), has a mass that grows without bound; a double \
                  pendulum with a light upper mass has a mass matrix that all but loses its rank where the arms align.",
         ours: "The step solves for v̄ and never inverts the mass matrix by itself; pivots are held against their own rounding, not against a \
-               fixed number. At the singularity itself the error is `NoDerivative` or `DegenerateLagrangian`. The arm with the lightest mass turns too far within a \
+               fixed number. At the singularity itself the error is `NoDerivative` or `SingularCoordinates`. The arm with the lightest mass turns too far within a \
                step of the implicit rules of order 2: the energy shows it, and the run ends with an error; a quarter of the step passes.",
         head: &["system", "mass", "rule", "largest error", "stopped"],
         rows,
