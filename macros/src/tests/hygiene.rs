@@ -56,7 +56,7 @@ fn every_name_that_generated_code_brings_along_is_listed() {
     let mut found = BTreeSet::new();
     let functions = quote! {
         fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
-            if q[0] > 0.0 && self.k > 1.0 { 0.5 * v[0] * v[0] } else { 0.5 * v[0] * v[0] - self.k * q[0].cos() * t }
+            if q[0] > 0.0 && self.on { 0.5 * v[0] * v[0] } else { 0.5 * v[0] * v[0] - self.k * q[0].cos() * t }
         }
         fn rayleigh(&self, v: [f64; 1]) -> f64 { 0.5 * self.k * v[0] * v[0] }
     };
