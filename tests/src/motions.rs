@@ -8,5 +8,5 @@ mod reference;
 mod systems;
 
 pub use collection::{collection, driven, of_family};
-pub use measured::{Cheapest, Motion, Outcome, Verdict};
+pub use measured::{Cheapest, Clock, Motion, Outcome, Verdict};
 pub use reference::extrapolated;

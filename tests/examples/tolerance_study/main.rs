@@ -10,10 +10,11 @@ mod page;
 
 use std::env::args;
 use std::path::Path;
+use std::sync::Mutex;
 use std::thread;
 
 use anyhow::{Context, Result};
-use dalembert_tests::motions::{Cheapest, Motion, Outcome, collection, of_family};
+use dalembert_tests::motions::{Cheapest, Clock, Motion, Outcome, collection, driven, of_family};
 use page::Collection;
 
 /// The errors asked for.
@@ -21,6 +22,9 @@ pub const TOLERANCES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 
 /// The collections: the code was written with an eye on the first two, not on the others.
 const SEEDS: [u64; 4] = [1, 4711, 424_242, 8_675_309];
+
+/// The collection of parametric drives and motions from rest: not looked at either.
+const DRIVEN: u64 = 60_606;
 
 /// Motions of each, and how many of them are compared to all fixed step sizes.
 const MOTIONS: usize = 252;
@@ -41,7 +45,12 @@ pub struct Run {
     pub reached: (Outcome, u32),
     /// The evaluations of the cheapest fixed choice, where that was looked for.
     pub cheapest: Option<f64>,
+    /// The request by the clock beside that choice.
+    pub clock: Option<Clock>,
 }
+
+/// Whoever measures time.
+static CLOCK: Mutex<()> = Mutex::new(());
 
 fn runs(motion: &Motion, is_compared: bool) -> Vec<Run> {
     let cheapest = if is_compared { motion.cheapest(&TOLERANCES) } else { vec![None; TOLERANCES.len()] };
@@ -52,6 +61,11 @@ fn runs(motion: &Motion, is_compared: bool) -> Vec<Run> {
         chosen: motion.ask(tolerance),
         reached: motion.reach(tolerance),
         cheapest: cheapest.map(|cheapest| cheapest.0),
+        clock: cheapest.and_then(|(_, method, steps)| {
+            // One at a time: threads beside would be measured with it.
+            let _alone = CLOCK.lock();
+            motion.clock(tolerance, (method, steps))
+        }),
     };
     each.map(run).collect()
 }
@@ -76,11 +90,14 @@ fn main() -> Result<()> {
     };
     let of_seed = |seed: u64| of(format!("seed {seed}"), &collection(seed, MOTIONS), COMPARED);
     let (family, seed, count) = MORE;
+    let later =
+        || of(format!("seed {DRIVEN}, drives of L and falls from rest"), &driven(DRIVEN, MOTIONS), COMPARED);
     let more = || of(format!("seed {seed}, {family} alone"), &of_family(family, seed, count), 0);
     let collections = thread::scope(|scope| {
         let running = SEEDS.map(|seed| scope.spawn(move || of_seed(seed)));
         let mut all = Vec::from(running.map(|run| run.join().expect("no motion panics")));
         all.push(more());
+        all.push(later());
         all
     });
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/error-asked-for.md");

@@ -1,5 +1,8 @@
 //! What a choice promised and what it kept, against a reference.
 
+use std::hint::black_box;
+use std::time::Instant;
+
 use dalembert::nalgebra::SVector;
 use dalembert::step::Step;
 use dalembert::system::ActingForce;
@@ -53,11 +56,29 @@ impl Outcome {
     }
 }
 
-/// The cheapest fixed choice, where there is one: its evaluations and its method.
-pub type Cheapest = Option<(f64, Method)>;
+/// The cheapest fixed choice, where there is one: its evaluations, its method and its steps.
+pub type Cheapest = Option<(f64, Method, u64)>;
+
+/// A request by the clock, in seconds.
+#[derive(Clone, Copy, Debug)]
+pub struct Clock {
+    /// Choosing.
+    pub choice: f64,
+    /// The run of the choice, without its guard and with it.
+    pub runs: [f64; 2],
+    /// All that it takes to reach the end.
+    pub end: f64,
+    /// The cheapest fixed choice.
+    pub fixed: f64,
+    /// The steps of the choice.
+    pub steps: u64,
+}
 
 /// Finds them for some tolerances.
 type Search = Box<dyn Fn(&[f64]) -> Vec<Cheapest>>;
+
+/// Times a request beside a fixed choice, where it reaches its end.
+type Timing = Box<dyn Fn(f64, (Method, u64)) -> Option<Clock>>;
 
 /// A motion with its reference.
 pub struct Motion {
@@ -68,6 +89,7 @@ pub struct Motion {
     ask: Box<dyn Fn(f64) -> Outcome>,
     reach: Box<dyn Fn(f64) -> (Outcome, u32)>,
     cheapest: Search,
+    clock: Timing,
 }
 
 /// Instants at which an error is measured.
@@ -120,7 +142,7 @@ impl Motion {
     {
         let reference = std::rc::Rc::new(reference);
         let (of_ask, of_reach, of_cheapest) = (reference.clone(), reference.clone(), system.clone());
-        let asked = system.clone();
+        let (asked, timed) = (system.clone(), system.clone());
         Self {
             family,
             what,
@@ -140,6 +162,7 @@ impl Motion {
             cheapest: Box::new(move |tolerances| {
                 cheapest(&of_cheapest, methods, start, time, tolerances, &reference)
             }),
+            clock: Box::new(move |tolerance, fixed| clock(&timed, methods, &start, [time, tolerance], fixed)),
         }
     }
 
@@ -151,6 +174,11 @@ impl Motion {
     /// What comes of asking for the end of a run that keeps an error, and how many runs that took.
     pub fn reach(&self, tolerance: f64) -> (Outcome, u32) {
         (self.reach)(tolerance)
+    }
+
+    /// A request by the clock, beside this method by so many steps; nothing where it does not reach its end.
+    pub fn clock(&self, tolerance: f64, fixed: (Method, u64)) -> Option<Clock> {
+        (self.clock)(tolerance, fixed)
     }
 
     /// The cheapest method and step size for each tolerance, in evaluations, found by trying all step sizes:
@@ -245,10 +273,10 @@ where
     let instants: Vec<f64> = (1..=16).map(|k| time * f64::from(k) / 16.0).collect();
     let exact = reference(&instants);
     let smallest = tolerances.iter().copied().fold(f64::INFINITY, f64::min);
-    let mut cheapest = vec![None::<(f64, Method)>; tolerances.len()];
+    let mut cheapest = vec![None; tolerances.len()];
     for method in Method::ALL.into_iter().filter(|&method| M::offers(method)) {
         let mut steps: u64 = 1;
-        let mut tried: Vec<[f64; 2]> = Vec::new();
+        let mut tried: Vec<([f64; 2], u64)> = Vec::new();
         loop {
             let h = time / steps as f64;
             let mut step = methods.step(method, h).expect("it is offered");
@@ -275,7 +303,7 @@ where
                 let of_p = (state.p - exact[index].p).amax() * weight.value();
                 error = error.max((state.q - exact[index].q).amax().max(of_p));
             }
-            tried.push([error, cost]);
+            tried.push(([error, cost], steps));
             if (error <= smallest && steps >= 16) || cost > MOST || steps > 400_000 {
                 break;
             }
@@ -286,12 +314,67 @@ where
             };
         }
         for (best, &tolerance) in cheapest.iter_mut().zip(tolerances) {
-            for &[_, cost] in tried.iter().rev().take_while(|[error, _]| *error <= tolerance) {
-                if best.is_none_or(|(least, _)| cost < least) {
-                    *best = Some((cost, method));
+            for &([_, cost], steps) in tried.iter().rev().take_while(|([error, _], _)| *error <= tolerance) {
+                if best.is_none_or(|(least, _, _)| cost < least) {
+                    *best = Some((cost, method, steps));
                 }
             }
         }
     }
     cheapest
+}
+
+/// The least of a few times that it takes, each of many calls.
+fn seconds(mut call: impl FnMut()) -> f64 {
+    let mut calls: u32 = 1;
+    let mut time = |calls: u32| {
+        let begun = Instant::now();
+        (0..calls).for_each(|_| call());
+        begun.elapsed().as_secs_f64()
+    };
+    while time(calls) < 2e-4 {
+        calls *= 2;
+    }
+    (0..5).map(|_| time(calls) / f64::from(calls)).fold(f64::INFINITY, f64::min)
+}
+
+fn clock<L, M, const N: usize>(
+    system: &L,
+    methods: M,
+    start: &State<f64, N>,
+    [time, tolerance]: [f64; 2],
+    (method, steps): (Method, u64),
+) -> Option<Clock>
+where
+    L: OffersMethods<N> + Lagrangian<N, Scalar = f64>,
+    M: Methods<L, N>,
+{
+    let request = system.to_error(tolerance).among(methods).until(time);
+    let reached = request.end(start).ok()?;
+    let through = |run: &mut dyn Iterator<Item = Result<Step<f64, N>, dalembert::StepError>>| {
+        black_box(run.filter(|step| step.is_ok()).count());
+    };
+    Some(Clock {
+        choice: seconds(|| {
+            black_box(request.choice(start).is_ok());
+        }),
+        runs: [
+            seconds(|| through(&mut reached.choice.unguarded())),
+            seconds(|| through(&mut reached.choice.trajectory())),
+        ],
+        end: seconds(|| {
+            black_box(request.end(start).is_ok());
+        }),
+        fixed: seconds(|| {
+            let h = time / steps as f64;
+            let mut step = methods.step(method, h).expect("it is offered");
+            let mut state = *start;
+            for k in 0..steps {
+                let Ok(taken) = step.advance(system, h * k as f64, &state) else { break };
+                state = taken.step.state;
+            }
+            black_box(state);
+        }),
+        steps: reached.choice.steps(),
+    })
 }

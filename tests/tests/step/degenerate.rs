@@ -33,9 +33,6 @@ fn a_coordinate_without_kinetic_energy() {
     assert_eq!(state.energy(&system), Err(degenerate));
     assert_eq!(system.by(Midpoint, 0.1).step(&state).unwrap_err(), degenerate);
     assert_eq!(system.by(Trapezoidal, 0.1).step(&state).unwrap_err(), degenerate);
-    // A guess spares the look at the velocity; no step size would help there either.
-    let guess = vector![0.4, 0.5, 0.6];
-    assert_eq!(system.by(Midpoint, 0.1).near(&guess).step(&state).unwrap_err(), degenerate);
     let mut trajectory = system.by(Midpoint, 0.1).run(state);
     assert_eq!(trajectory.next().unwrap().unwrap_err(), degenerate);
     let text = degenerate.to_string();

@@ -68,11 +68,15 @@ impl fmt::Display for ToleranceError {
             }
             Self::TooManySteps { needed, steps, most, rate } => write!(
                 f,
-                "the error takes {steps:.1e} steps, and {most:.1e} are allowed: {needed}. At the start the motion                  changes at the rate {rate:.1e}. Allow more by `at_most`, ask for less, or for a shorter time;                  where the rate is that of a pole of the coordinates, take others"
+                "the error takes {steps:.1e} steps, and {most:.1e} are allowed: {needed}. At the start the motion \
+                 changes at the rate {rate:.1e}. Allow more by `at_most`, ask for less, or for a shorter time; \
+                 where the rate is that of a pole of the coordinates, take others"
             ),
             Self::NothingMoves { looks, apart } => write!(
                 f,
-                "the system starts at rest, and at {looks} times, {apart:.1e} apart, no force moves it: nothing                  says how long steps may be. Say when its force sets in by `breaking_at`, or how long it lasts by                  `longest_step`"
+                "the system starts at rest, and at {looks} times, {apart:.1e} apart, no force moves it: nothing \
+                 says how long steps may be. Say when its force sets in by `breaking_at`, or how long it lasts by \
+                 `longest_step`"
             ),
             Self::NotOffered { method } => {
                 write!(f, "the system does not offer the method of the run: {method}; list its rule")
