@@ -335,4 +335,4 @@ pub use run::{Checkpoint, Composition, Discretise, Splitting, Trajectory};
 pub use step::{Discrete, Discretised, State, StepError};
 #[doc(inline)]
 pub use system::{Force, Lagrangian, Rayleigh, ScalarField, VectorField};
-pub use theory::EnergyLedger;
+pub use theory::{EnergyEntries, EnergyLedger};

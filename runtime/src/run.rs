@@ -14,6 +14,7 @@ mod held_input;
 mod lanes;
 mod memory;
 mod pace;
+mod present;
 mod scaled_time;
 mod splitting;
 pub mod tolerance;

@@ -19,4 +19,4 @@ pub mod samples;
 #[cfg(feature = "theory")]
 mod verdict;
 
-pub use energy::EnergyLedger;
+pub use energy::{EnergyEntries, EnergyLedger};

@@ -30,8 +30,9 @@ where
 /// It keeps what a [`Trajectory`](crate::Trajectory) keeps, the state, the clock and what the method
 /// remembers of earlier steps, and borrows no system: each step is given its own, `system.driven(u)`, and so
 /// may come from fields that have changed as well. Where L, R or f take the time, that is the view's,
-/// `system.driven(u, t)`, such as [`time`](Self::time). An error leaves the state as it was, and the next
-/// call tries again.
+/// `system.driven(u, t)`, at the [`time`](Self::time) of the run: for the step, and for what is asked of the
+/// state after it, velocity and energy, another one at the time that is then. An error leaves the state as it
+/// was, and the next call tries again.
 ///
 /// V is the type of the views, and only says of what kind they are. That of
 /// [`run_with_inputs`](Discretised::run_with_inputs) names the lifetime of the view that it was asked of, and

@@ -411,7 +411,7 @@ where
     fn report(&mut self, found: &Found<T::Scalar, N>) -> Result<Event<T::Scalar, N>, EventError> {
         self.next += 1;
         let velocity = self.dense.velocity(found.time, &found.state)?;
-        let event = found.event(velocity);
+        let event = found.event(velocity, self.dense.since());
         if self.ended {
             // At the same time as a terminal one.
             self.mark(found);

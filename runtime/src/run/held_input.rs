@@ -7,6 +7,7 @@ use nalgebra::SVector;
 use crate::numbers::Scalar;
 use crate::run::between::{Dense, Divisible, Moment, Restartable, SampledAt, Until, beginning};
 use crate::run::events::Watch;
+use crate::run::present::at_present;
 use crate::run::{DrivenTrajectory, Run, TakenUntil};
 use crate::step::flow::velocity;
 use crate::step::{Flow, Memory, State, Step, StepError};
@@ -76,6 +77,18 @@ where
     L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
     V::RunMemory: Memory<L, M, N>,
 {
+    /// The present state: that of the last step that succeeded.
+    pub fn state(&self) -> &State<L::Scalar, N> {
+        self.run.state()
+    }
+
+    /// The time of the run.
+    pub fn time(&self) -> f64 {
+        self.run.time()
+    }
+
+    at_present!(held => held.system, held.since);
+
     /// This run as one that answers for all times of its last step: [`Dense`].
     pub fn dense(&mut self) -> Dense<'_, Self, N> {
         Dense::of(self)

@@ -10,6 +10,8 @@ mod midpoint;
 
 use core::marker::PhantomData;
 
+use nalgebra::SVector;
+
 use crate::numbers::members::member;
 use crate::numbers::{Elementary, Mask, MemberVector, Members, Scalar};
 use crate::rules::steps_until;
@@ -94,7 +96,8 @@ pub trait InLanes<M, const N: usize>: Flow<M, N> {
 }
 
 /// W runs at once, by method `M` with one step size. Views are systems as well, each with the input that it
-/// holds and at its own time: that of the view and of the steps that its run has taken.
+/// holds and at its own time: that of the view and of the steps that its run has taken, at which
+/// [`velocity`](Self::velocity) and [`energy`](Self::energy) ask it.
 ///
 /// A member that fails leaves the others as they are, and has no state from then on: its own run,
 /// `system.by(method, h).run(start)`, says why.
@@ -126,6 +129,8 @@ where
     systems: [&'a L; W],
     h: L::Scalar,
     lanes: L::Lanes<W>,
+    /// Steps since each member was put into its lane.
+    taken: [u64; W],
     method: PhantomData<M>,
 }
 
@@ -141,7 +146,8 @@ where
     #[must_use]
     pub fn new(method: M, systems: [&'a L; W], starts: &[State<L::Scalar, N>; W], h: L::Scalar) -> Self {
         let _ = method;
-        Self { systems, h, lanes: L::in_lanes(systems, starts, h), method: PhantomData }
+        let lanes = L::in_lanes(systems, starts, h);
+        Self { systems, h, lanes, taken: [0; W], method: PhantomData }
     }
 
     /// Other runs, from the states of the same index, in the lanes that have a system here, as they would be
@@ -174,6 +180,7 @@ where
         for (lane, system) in systems.into_iter().enumerate() {
             if let Some(system) = system {
                 self.systems[lane] = system;
+                self.taken[lane] = 0;
                 arriving[lane] = Some(starts[lane]);
             }
         }
@@ -215,6 +222,9 @@ where
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn advance(&mut self, steps: u64) {
         L::advance_in_lanes(&mut self.lanes, self.systems, steps);
+        for taken in &mut self.taken {
+            *taken = taken.saturating_add(steps);
+        }
     }
 
     /// The state of the run in this lane: that of the scalar run after as many steps, to the last bit.
@@ -225,6 +235,36 @@ where
     #[must_use]
     pub fn state(&self, lane: usize) -> Option<State<L::Scalar, N>> {
         if lane < W { L::state_of_lane(&self.lanes, lane) } else { None }
+    }
+
+    /// The time of the run in this lane: h × the steps since it was put there. Nothing if there is no such
+    /// lane.
+    #[must_use]
+    pub fn time(&self, lane: usize) -> Option<f64> {
+        self.taken.get(lane).map(|&taken| taken as f64 * self.h.widen())
+    }
+
+    /// The velocity of the run in this lane, of its system as that is now. Nothing where there is no
+    /// [`state`](Self::state), or no velocity of it.
+    #[must_use]
+    pub fn velocity(&self, lane: usize) -> Option<SVector<L::Scalar, N>> {
+        self.at_present(lane, |system, state| state.velocity(system).ok())
+    }
+
+    /// The energy of the run in this lane, of its system as that is now. Nothing where there is no
+    /// [`state`](Self::state), or no velocity of it.
+    #[must_use]
+    pub fn energy(&self, lane: usize) -> Option<L::Scalar> {
+        self.at_present(lane, |system, state| state.energy(system).ok())
+    }
+
+    fn at_present<T>(
+        &self,
+        lane: usize,
+        ask: impl FnOnce(&L, &State<L::Scalar, N>) -> Option<T>,
+    ) -> Option<T> {
+        let (state, time) = (self.state(lane)?, self.time(lane)?);
+        self.systems.get(lane)?.later(L::Scalar::constant(time), |system| ask(system, &state))
     }
 }
 

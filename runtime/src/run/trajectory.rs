@@ -8,8 +8,10 @@ use crate::numbers::Scalar;
 use crate::rules::steps_until;
 use crate::run::checkpoint::Toward;
 use crate::run::pace::Pace;
+use crate::run::present::at_present;
 use crate::run::{Checkpoint, Course};
 use crate::step::{Discretised, Flow, Memory, State, Step, StepError};
+use crate::system::Lagrangian;
 
 /// Runs.
 impl<'a, L, M, const N: usize> Discretised<'a, L, M, N>
@@ -36,8 +38,42 @@ where
 /// ([`Memory`]). After an error it ends, its state being the last good one; another step size
 /// ([`Trajectory::change_step_size`]) lets it go on.
 ///
-/// Where L, R or f take the time, each step sees its own: the time of the system given, `system.at_time(t)`,
-/// and what the trajectory has taken since.
+/// **Time.** Where L, R or f take the time, each step sees its own: the time of the system given,
+/// `system.at_time(t)`, and what the trajectory has taken since. The view given stands still meanwhile: asked
+/// through it, a later state has the velocity and the energy of another system. [`velocity`](Self::velocity),
+/// [`energy`](Self::energy) and [`at_present`](Self::at_present) ask at the present time,
+/// [`ledger`](Self::ledger) accounts for each step at its own, and a [`Sample`] knows its time. A rocket
+/// with gas that leaves it with 4000:
+///
+/// ```
+/// use dalembert::{Discretise, Gauss, State, rayleigh_system};
+///
+/// struct Rocket;
+///
+/// #[rayleigh_system(rule = gauss)]
+/// impl Rocket {
+///     fn lagrangian(&self, _q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+///         0.5 * (100.0 - 0.5 * t) * v[0] * v[0]
+///     }
+///     fn force(&self, _q: [f64; 1], v: [f64; 1]) -> [f64; 1] {
+///         [0.5 * (4000.0 - v[0])]
+///     }
+/// }
+///
+/// let start = Rocket.at_time(0.0);
+/// let mut run = start.by(Gauss::<3>, 0.5).run(State { q: [0.0].into(), p: [0.0].into() });
+/// run.by_ref().take(320).for_each(|step| assert!(step.is_ok()));
+/// // 80 of 100 are burnt.
+/// let by_hand = 4000.0 * 5.0_f64.ln();
+/// assert!((run.velocity()?[0] / by_hand - 1.0).abs() < 1e-10);
+/// // The rocket as it was at the start would go at a fifth of that.
+/// assert!((run.state().velocity(&start)?[0] / by_hand - 0.2).abs() < 1e-10);
+/// // A of the step that comes next.
+/// let state = *run.state();
+/// let (_, next) = run.at_present(|rocket| rocket.by(Gauss::<3>, 0.5).linearized_step(&state))?;
+/// assert!((next.a.q_by_p[0] / (0.5 / 20.0) - 1.0).abs() < 1e-9);
+/// # Ok::<(), dalembert::StepError>(())
+/// ```
 pub struct Trajectory<'a, L, M, const N: usize>
 where
     L: Flow<M, N>,
@@ -69,6 +105,8 @@ where
     pub fn time(&self) -> f64 {
         self.at.time()
     }
+
+    at_present!(run => run.system, 0.0);
 
     /// Goes on with another step size from the present state, also after an error. Where steps follow the
     /// motion it is Δτ.
@@ -424,6 +462,9 @@ pub struct Parted<S, const N: usize> {
 }
 
 /// A state recorded on a trajectory.
+///
+/// It knows its time: [`velocity`](Self::velocity) and [`energy`](Self::energy) are asked of the system that
+/// the run was begun with, whatever time that has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Sample<S, const N: usize> {
@@ -439,6 +480,55 @@ pub struct Sample<S, const N: usize> {
     pub damped: u64,
     /// Largest residual since the last sample, in units of its round-off floor.
     pub worst_residual: f64,
+    /// The time of the run at which its system has its own.
+    pub(super) since: f64,
+}
+
+impl<S: Scalar, const N: usize> Sample<S, N> {
+    /// The velocity. `system` is the one that the run was begun with: a view is asked at the time of the
+    /// sample, not at its own.
+    ///
+    /// # Errors
+    /// Those of [`State::velocity`].
+    pub fn velocity<L>(&self, system: &L) -> Result<SVector<S, N>, StepError>
+    where
+        L: Lagrangian<N, Scalar = S>,
+    {
+        system.later(S::constant(self.time - self.since), |system| self.state.velocity(system))
+    }
+
+    /// The energy. `system` is the one that the run was begun with: a view is asked at the time of the
+    /// sample, not at its own.
+    ///
+    /// ```
+    /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
+    ///
+    /// struct Growing;
+    ///
+    /// #[rayleigh_system]
+    /// impl Growing {
+    ///     fn lagrangian(&self, _q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+    ///         0.5 * (1.0 + t) * v[0] * v[0]
+    ///     }
+    /// }
+    ///
+    /// let view = Growing.at_time(0.0);
+    /// let mut run = view.by(Midpoint, 0.1).run(State { q: [0.0].into(), p: [1.0].into() });
+    /// for sample in run.sample_every(10).take(3) {
+    ///     let sample = sample?;
+    ///     assert!((sample.energy(&view)? - 0.5 / (1.0 + sample.time)).abs() < 1e-15);
+    /// }
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`State::velocity`].
+    pub fn energy<L>(&self, system: &L) -> Result<S, StepError>
+    where
+        L: Lagrangian<N, Scalar = S>,
+    {
+        system.later(S::constant(self.time - self.since), |system| self.state.energy(system))
+    }
 }
 
 /// A step and its size.
@@ -503,6 +593,7 @@ impl<T: Run<N>, const N: usize> Iterator for Samples<'_, T, N> {
             }
         }
         let (time, state) = (self.run.time(), *self.run.state());
-        Some(Ok(Sample { time, state, previous, iterations, damped, worst_residual }))
+        // Runs that are sampled so have the time of their system at 0.
+        Some(Ok(Sample { time, state, previous, iterations, damped, worst_residual, since: 0.0 }))
     }
 }

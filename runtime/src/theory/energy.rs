@@ -1,5 +1,8 @@
 //! The energy ledger: where the energy of a step went.
 
+mod of_run;
+
+use core::iter::Sum;
 use core::ops::{Add, AddAssign};
 
 use nalgebra::SVector;
@@ -7,6 +10,8 @@ use nalgebra::SVector;
 use crate::numbers::Scalar;
 use crate::step::{Discretised, EnergyExchange, ForceWork, Quantity, State, StepError, require_step_size};
 use crate::system::ActingForce;
+
+pub use of_run::EnergyEntries;
 
 /// Where energy went over one step, or, added up, over many.
 ///
@@ -31,9 +36,12 @@ use crate::system::ActingForce;
 /// **Of a step made otherwise**, [`of`](Self::of): Simpson's rule on the cubic through both ends with their
 /// velocities. Below h⁴ over a fixed time the remainder is then the account's own.
 ///
-/// A system that takes the time is given as it is at the start of the step, `system.at_time(t)`. Where L
-/// itself takes it, the remainder also holds −∫ ∂L/∂t dt, what moving constraints and changing parameters
-/// bring.
+/// **Of a run**, `run.ledger()`: [`Trajectory::ledger`](crate::Trajectory::ledger) has an entry for each
+/// step, taken at the step's own time and of its own size, and entries add up.
+///
+/// A system that takes the time is otherwise given as it is at the start of the step, `system.at_time(t)`: a
+/// view that stands still while the steps go on tells of remainders that are none. Where L itself takes it,
+/// the remainder also holds −∫ ∂L/∂t dt, what moving constraints and changing parameters bring.
 ///
 /// ```
 /// use dalembert::{Discretise, EnergyLedger, Midpoint, State, rayleigh_system};
@@ -43,14 +51,9 @@ use crate::system::ActingForce;
 ///     (0.5 * v[0] * v[0] - 0.5 * q[0] * q[0], 0.5 * r * v[0] * v[0])
 /// }
 /// let system = Oscillator { r: 0.1 };
-/// let by = system.by(Midpoint, 0.1);
-/// let mut state = State::from_velocity(&system, [1.0], [0.0])?;
-/// let mut ledger = EnergyLedger::default();
-/// for step in by.run(state).take(100) {
-///     let next = step?.state;
-///     ledger += by.ledger(&state, &next)?;
-///     state = next;
-/// }
+/// let start = State::from_velocity(&system, [1.0], [0.0])?;
+/// let mut run = system.by(Midpoint, 0.1).run(start);
+/// let ledger: EnergyLedger<f64> = run.ledger().take(100).sum::<Result<_, _>>()?;
 /// // L and R of second degree: the midpoint rule loses what friction takes, and nothing else.
 /// assert!(ledger.dissipated > 0.2 && ledger.remainder().abs() < 1e-14);
 /// # Ok::<(), dalembert::StepError>(())
@@ -116,9 +119,10 @@ where
     L: ForceWork<M, N>,
 {
     /// Where the energy of the step from `from` to `to` went, by this method's own account of what forces
-    /// did: [`EnergyLedger`].
+    /// did: [`EnergyLedger`]. A run's own [`ledger`](crate::Trajectory::ledger) is of each of its steps.
     ///
-    /// Gauss rules, compositions and splittings make the step from `from` again, for the points between.
+    /// A view has to have the time at which the step starts. Gauss rules, compositions and splittings make
+    /// the step from `from` again, for the points between.
     ///
     /// # Errors
     /// Those of [`step`](Self::step) and [`State::velocity`]; [`StepError::NonFinite`].
@@ -142,6 +146,13 @@ impl<S: Scalar> Add for EnergyLedger<S> {
             dissipated: self.dissipated + other.dissipated,
             work: self.work + other.work,
         }
+    }
+}
+
+impl<S: Scalar> Sum for EnergyLedger<S> {
+    fn sum<I: Iterator<Item = Self>>(entries: I) -> Self {
+        let none = Self { change: S::zero(), dissipated: S::zero(), work: S::zero() };
+        entries.fold(none, Add::add)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Runs: memory, checkpoints, compositions, splittings, an error asked for.
 
 mod anchors;
+mod at_present;
 mod between;
 mod bounded_requests;
 mod close_pairs;

@@ -91,7 +91,8 @@ impl<'t, T: Divisible<N>, const N: usize, I> SampledAt<'t, T, N, I> {
             // The run has not begun.
             None => (*self.dense.run.state(), self.dense.run.state().q),
         };
-        Ok(Some(Sample { time: asked, state, previous, iterations, damped, worst_residual }))
+        let since = self.dense.since();
+        Ok(Some(Sample { time: asked, state, previous, iterations, damped, worst_residual, since }))
     }
 }
 

@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use super::{EventError, Passage};
 use crate::numbers::Scalar;
 use crate::step::{Discretised, Flow, PhaseMatrix, State};
-use crate::system::ActingForce;
+use crate::system::{ActingForce, Lagrangian};
 
 /// An event: when, where, which and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +27,8 @@ pub struct Event<S, const N: usize> {
     pub from_time: f64,
     /// How long after it the event is; negative in a run backwards.
     pub elapsed: S,
+    /// The time of the run at which its system has its own.
+    pub(super) since: f64,
 }
 
 /// The derivative of an event function g(q, p, t): what [`Event::derivatives`] asks for.
@@ -65,6 +67,17 @@ impl<S: Scalar, const N: usize> EventDerivatives<S, N> {
 }
 
 impl<S: Scalar, const N: usize> Event<S, N> {
+    /// The energy of the state at the event. `system` is the one that the run was begun with, or that holds
+    /// the input: a view is asked at the time of the event, not at its own.
+    #[must_use]
+    pub fn energy<L>(&self, system: &L) -> S
+    where
+        L: Lagrangian<N, Scalar = S>,
+    {
+        let elapsed = S::constant(self.time - self.since);
+        system.later(elapsed, |system| system.energy(&self.state.q, &self.velocity))
+    }
+
     /// The derivatives of time and state of the event by the state from which its step was taken, `g` being
     /// the derivative of the event function there:
     ///
@@ -74,7 +87,8 @@ impl<S: Scalar, const N: usize> Event<S, N> {
     ///
     /// with A of the partial step. They make the derivatives of return maps and sections, and of whatever
     /// ends at an event. A is exact; ẋ is that of the motion, from which the steps' own differs by their
-    /// error.
+    /// error. Where the system takes the time, `by` is of the view that the run was begun with, or that holds
+    /// the input.
     ///
     /// ```
     /// use dalembert::nalgebra::vector;
@@ -108,11 +122,11 @@ impl<S: Scalar, const N: usize> Event<S, N> {
         L: Flow<M, N> + ActingForce<N, Scalar = S>,
     {
         let mean = (self.state.q - self.from.q) / self.elapsed;
-        let (_, step) = by.system().later(S::constant(self.from_time), |system| {
+        let (_, step) = by.system().later(S::constant(self.from_time - self.since), |system| {
             Flow::<M, N>::linearized_step(system, &self.from, self.elapsed, Some(&mean))
         })?;
         let (q, v) = (&self.state.q, &self.velocity);
-        let rate = by.system().later(S::constant(self.time), |system| {
+        let rate = by.system().later(S::constant(self.time - self.since), |system| {
             system.lagrangian_gradient(q, v).d1 + system.acting_force(q, v)
         });
         let slope = g.q.dot(v) + g.p.dot(&rate) + g.time;

@@ -26,9 +26,9 @@ pub(super) struct Found<S, const N: usize> {
 }
 
 impl<S: Scalar, const N: usize> Found<S, N> {
-    pub(super) fn event(&self, velocity: SVector<S, N>) -> Event<S, N> {
+    pub(super) fn event(&self, velocity: SVector<S, N>, since: f64) -> Event<S, N> {
         let Self { index, passage, time, state, from, from_time, elapsed } = *self;
-        Event { index, passage, time, state, velocity, from, from_time, elapsed }
+        Event { index, passage, time, state, velocity, from, from_time, elapsed, since }
     }
 }
 

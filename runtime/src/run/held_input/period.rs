@@ -3,10 +3,10 @@
 use core::iter::Peekable;
 
 use crate::numbers::Scalar;
+use crate::run::HeldInput;
 use crate::run::between::{Moment, Start};
 use crate::run::checkpoint::is_same;
 use crate::run::events::{Crossing, Event, EventError, Watch};
-use crate::run::{HeldInput, Run};
 use crate::step::{
     DiscreteDriven, DiscreteParameters, Flow, Linearizable, Linearization, Memory, PhaseMatrix, State,
     StateBy, Step, StepError,

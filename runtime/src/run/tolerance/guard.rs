@@ -9,6 +9,7 @@ use super::scale::Scale;
 use super::unresolved::Unresolved;
 use super::{Breach, Choice, Chosen, LastStep, Method, MethodStep, Methods, OffersMethods, ToleranceError};
 use crate::numbers::Scalar;
+use crate::run::present::at_present;
 use crate::run::{Run, Samples};
 use crate::step::{State, Step, StepError};
 use crate::system::ActingForce;
@@ -252,6 +253,11 @@ where
         Samples::new(self, stride)
     }
 
+    /// The choice of which this is the run.
+    pub fn choice(&self) -> &Choice<'a, L, M, N> {
+        &self.choice
+    }
+
     /// The present state.
     pub fn state(&self) -> &State<L::Scalar, N> {
         &self.guard.state
@@ -261,6 +267,8 @@ where
     pub fn time(&self) -> f64 {
         self.guard.segment.time(self.guard.taken)
     }
+
+    at_present!(run => run.choice.system, 0.0);
 
     /// The size of the last step: one where nothing breaks on the way.
     pub(super) fn step_size(&self) -> f64 {
