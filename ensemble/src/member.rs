@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use dalembert::nalgebra::SVector;
+use dalembert::system::Scalar;
 use dalembert::tolerance::{Breach, ToleranceError};
 use dalembert::{Lagrangian, State, StepError};
 
@@ -10,7 +12,7 @@ use dalembert::{Lagrangian, State, StepError};
 pub struct Record<'m, L: Lagrangian<N>, const N: usize> {
     /// Its number.
     pub number: u64,
-    /// Its system.
+    /// Its system, as it is at the start where it takes the time.
     pub system: &'m L,
     /// Steps taken.
     pub steps: u64,
@@ -18,6 +20,24 @@ pub struct Record<'m, L: Lagrangian<N>, const N: usize> {
     pub time: f64,
     /// The state.
     pub state: State<L::Scalar, N>,
+}
+
+impl<L: Lagrangian<N>, const N: usize> Record<'_, L, N> {
+    /// The velocity, of the system as it is at the time of the state.
+    ///
+    /// # Errors
+    /// Those of [`State::velocity`].
+    pub fn velocity(&self) -> Result<SVector<L::Scalar, N>, StepError> {
+        self.system.later(Scalar::constant(self.time), |system| self.state.velocity(system))
+    }
+
+    /// The energy, of the system as it is at the time of the state.
+    ///
+    /// # Errors
+    /// Those of [`State::velocity`].
+    pub fn energy(&self) -> Result<L::Scalar, StepError> {
+        self.system.later(Scalar::constant(self.time), |system| self.state.energy(system))
+    }
 }
 
 /// A member at the end of its run.

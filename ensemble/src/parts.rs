@@ -29,10 +29,11 @@
 //! # Ok::<(), dalembert_ensemble::parts::PartsError>(())
 //! ```
 //!
-//! **Columns.** `member`; those of [`column`](Parts::column); `t`; `q0` …, `p0` …; `energy`; `error`, null
-//! where there is none. A member that fails has its last good state in its last row, with the error; one
-//! without a start has nulls. **Metadata**: system, structure, method with step size and records, version,
-//! and those of [`metadata`](Parts::metadata); a part with others is refused as another study's.
+//! **Columns.** `member`; those of [`column`](Parts::column); `t`; `q0` …, `p0` …; `energy`, at the time of
+//! the row; `error`, null where there is none. A member that fails has its last good state in its last row,
+//! with the error; one without a start has nulls. **Metadata**: system, structure, method with step size and
+//! records, version, and those of [`metadata`](Parts::metadata); a part with others is refused as another
+//! study's.
 
 mod error;
 mod file;

@@ -109,6 +109,46 @@ fn rows_are_the_members() {
     }
 }
 
+struct Growing;
+
+#[rayleigh_system]
+impl Growing {
+    fn lagrangian(&self, _q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+        0.5 * (2.0 + t) * v[0] * v[0]
+    }
+}
+
+/// p stays, and so E = p²/2m falls as the mass m = 2 + t grows, t from 1 on.
+#[test]
+fn the_energy_of_a_row_is_that_of_its_time() {
+    let folder = folder("timed");
+    let start =
+        |number: u64| Ok((Growing.at_time(1.0), State { q: [0.0].into(), p: [number as f64].into() }));
+    let study = Ensemble::new(start).by(Midpoint, 0.1).steps(20).every(5);
+    study.parts(&folder).members_per_part(4).write(0..4).unwrap();
+    let energies = study.reduce(
+        0..4,
+        |_| Vec::new(),
+        |energies, record| {
+            let m = 3.0 + record.time;
+            assert!((record.velocity().unwrap()[0] - record.number as f64 / m).abs() < 1e-15);
+            energies.push(record.energy().unwrap());
+        },
+        Vec::new(),
+        |all, mut outcome| all.append(&mut outcome.value),
+    );
+    let path = folder.join("members-000000000000-000000000004.parquet");
+    let reader = SerializedFileReader::new(fs::File::open(path).unwrap()).unwrap();
+    let rows: Vec<_> = reader.get_row_iter(None).unwrap().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), 4 * 5);
+    for (row, energy) in rows.iter().zip(energies.unwrap()) {
+        let (t, p, found) =
+            (row.get_double(1).unwrap(), row.get_double(3).unwrap(), row.get_double(4).unwrap());
+        assert!((found - 0.5 * p * p / (3.0 + t)).abs() < 1e-14 && found == energy);
+        assert!(p == 0.0 || t == 0.0 || found < 0.9 * p * p / 6.0);
+    }
+}
+
 #[test]
 fn what_does_not_belong_together_is_refused() {
     let folder = folder("refused");

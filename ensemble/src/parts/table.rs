@@ -28,12 +28,13 @@ impl<const N: usize> Row<N> {
         state: &State<L::Scalar, N>,
     ) -> Self {
         let widened = |vector: &SVector<L::Scalar, N>| vector.map(Scalar::widen);
+        let energy = |system: &L| state.energy(system);
         Self {
             number,
             fields: columns.iter().map(|(_, value)| value(system)).collect(),
             time: Some(time),
             state: Some([widened(&state.q), widened(&state.p)]),
-            energy: state.energy(system).ok().map(Scalar::widen),
+            energy: system.later(Scalar::constant(time), energy).ok().map(Scalar::widen),
             error: None,
         }
     }
