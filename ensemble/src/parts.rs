@@ -73,7 +73,7 @@ pub struct Written {
     pub written: u64,
     /// Parts that were there.
     pub found: u64,
-    /// Members computed that failed.
+    /// Members that failed, of parts written and found.
     pub failed: u64,
 }
 
@@ -148,7 +148,7 @@ where
                 for part in planned {
                     let path = file::path(&self.folder, &part);
                     if path.try_exists().map_err(|source| PartsError::Io { path: path.clone(), source })? {
-                        file::require_of_study(&path, &metadata)?;
+                        written.failed += file::failed_in(&path, &metadata)?;
                         written.found += 1;
                         continue;
                     }

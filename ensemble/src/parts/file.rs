@@ -14,6 +14,7 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
+use parquet::record::Field;
 use parquet::schema::types::Type;
 
 use super::error::PartsError;
@@ -60,8 +61,10 @@ pub(super) fn remove_leftovers(folder: &Path, planned: &[Range<u64>]) {
     }
 }
 
-/// Fails where the part that is there is not one of the study with this metadata.
-pub(super) fn require_of_study(path: &Path, metadata: &[(String, String)]) -> Result<(), PartsError> {
+/// The members that failed of a part that is there: each has one row with an error.
+///
+/// Fails where the part is not one of the study with this metadata.
+pub(super) fn failed_in(path: &Path, metadata: &[(String, String)]) -> Result<u64, PartsError> {
     let file = File::open(path).map_err(|source| PartsError::Io { path: path.to_owned(), source })?;
     let reader = SerializedFileReader::new(file)
         .map_err(|source| PartsError::Parquet { path: path.to_owned(), source })?;
@@ -74,7 +77,27 @@ pub(super) fn require_of_study(path: &Path, metadata: &[(String, String)]) -> Re
             return Err(PartsError::AnotherStudy { path, key, expected, found });
         }
     }
-    Ok(())
+    errors_in(&reader).map_err(|source| PartsError::Parquet { path: path.to_owned(), source })
+}
+
+/// The rows of a part that have an error: as its last column, that of errors, is summed up in the file, or
+/// counted where another program has left that out.
+fn errors_in(part: &SerializedFileReader<File>) -> Result<u64, ParquetError> {
+    let groups = part.metadata().row_groups();
+    let summed_up = groups.iter().map(|group| {
+        let nulls = group.columns().last()?.statistics()?.null_count_opt()?;
+        u64::try_from(group.num_rows()).ok()?.checked_sub(nulls)
+    });
+    if let Some(errors) = summed_up.sum() {
+        return Ok(errors);
+    }
+    let mut errors = 0;
+    for row in part.get_row_iter(None)? {
+        let row = row?;
+        let last = row.get_column_iter().last();
+        errors += u64::from(last.is_some_and(|(_, value)| *value != Field::Null));
+    }
+    Ok(errors)
 }
 
 /// Writes a part beside its place, and puts it there when all of it is on the disk.
