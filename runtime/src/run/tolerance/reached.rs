@@ -3,8 +3,8 @@
 use nalgebra::ComplexField;
 
 use super::grid::{Bounds, segments};
-use super::{Choice, Chosen, Methods, ToleranceError, Trial, bounded};
-use crate::step::State;
+use super::{Breach, Choice, Chosen, Methods, ToleranceError, Trial, bounded};
+use crate::step::{State, StepError};
 use crate::system::{ActingForce, Lagrangian};
 
 /// Runs to the end at most.
@@ -40,13 +40,30 @@ pub struct Reached<'a, L: Lagrangian<N>, M, const N: usize> {
     pub evaluations: f64,
 }
 
+/// A run that was followed to its end, or until a step of it failed.
+pub(super) struct Followed<S, const N: usize> {
+    pub(super) state: State<S, N>,
+    pub(super) expected: f64,
+    /// The largest error expected on the way.
+    pub(super) largest: f64,
+    pub(super) breach: Option<Breach>,
+    pub(super) failure: Option<StepError>,
+    /// The cost of its steps and its guard.
+    pub(super) evaluations: f64,
+}
+
+/// Takes the run of a choice.
+type Follow<'f, 'a, L, M, const N: usize> =
+    dyn FnMut(&Choice<'a, L, M, N>) -> Followed<<L as Lagrangian<N>>::Scalar, N> + 'f;
+
 /// Runs to the end with smaller and smaller errors aimed at, until the guard finds that one keeps the
-/// tolerance.
+/// tolerance; `follow` takes the steps.
 pub(super) fn reached<'a, L, M, const N: usize>(
     (system, methods): (&'a L, M),
     start: &State<L::Scalar, N>,
     [time, tolerance]: [f64; 2],
     bounds: Bounds,
+    follow: &mut Follow<'_, 'a, L, M, N>,
 ) -> Result<Reached<'a, L, M, N>, ToleranceError>
 where
     L: ActingForce<N>,
@@ -56,22 +73,16 @@ where
     let mut choice = bounded((system, methods), start, [time, tolerance], bounds)?;
     let (mut runs, mut evaluations) = (1, 0.0);
     loop {
-        let mut run = choice.trajectory();
-        let failure = run.by_ref().find_map(Result::err);
-        evaluations += choice.chosen.spent + run.evaluations().0 + run.evaluations().1;
-        let is_clear = run.largest() <= ACCEPTED * tolerance;
-        let (largest, error) = match (failure, run.breach()) {
+        let run = follow(&choice);
+        evaluations += choice.chosen.spent + run.evaluations;
+        let is_clear = run.largest <= ACCEPTED * tolerance;
+        let (largest, error) = match (run.failure, run.breach) {
             (None, None) if runs == 1 || runs == RUNS || is_clear => {
-                return Ok(Reached {
-                    state: *run.state(),
-                    expected: run.expected(),
-                    choice,
-                    runs,
-                    evaluations,
-                });
+                let Followed { state, expected, .. } = run;
+                return Ok(Reached { state, expected, choice, runs, evaluations });
             }
-            (None, None) => (run.largest(), None),
-            (None, Some(&breach)) => (run.largest(), Some(ToleranceError::Breach(breach))),
+            (None, None) => (run.largest, None),
+            (None, Some(breach)) => (run.largest, Some(ToleranceError::Breach(breach))),
             (Some(error), _) => (f64::INFINITY, Some(ToleranceError::Step(error))),
         };
         if let (RUNS, Some(error)) = (runs, error) {

@@ -3,9 +3,9 @@
 use core::fmt;
 
 use super::grid::{Bounds, Breaks};
-use super::reached::{Reached, reached};
+use super::reached::{Followed, Reached, reached};
 use super::{Choice, GuardedTrajectory, Methods, ToleranceError, bounded};
-use crate::step::State;
+use crate::step::{State, StepError};
 use crate::system::ActingForce;
 
 /// A system that offers methods where an error is asked for: those of the rules that its attribute lists.
@@ -208,7 +208,55 @@ impl<'a, L, M> TimedRequest<'a, L, M> {
         L: ActingForce<N>,
         M: Methods<L, N>,
     {
+        self.end_followed(start, |run| run.find_map(Result::err).map_or(Ok(()), Err))
+    }
+
+    /// As [`end`](Self::end), with the steps of each run that is tried taken by `follow`: to record them, or
+    /// to watch for events, anew for each. What it leaves of a run is not taken, as behind an event that ends
+    /// it; the error of a step that fails it hands on.
+    ///
+    /// ```
+    /// use dalembert::{Discretise, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system(rule = [trapezoidal, gauss])]
+    /// fn oscillator(q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///     0.5 * v[0] * v[0] - 0.5 * q[0] * q[0]
+    /// }
+    /// let start = State::from_velocity(&Oscillator {}, [1.0], [0.0])?;
+    /// let mut zeros = Vec::new();
+    /// let reached = Oscillator {}.to_error(1e-9).until(10.0).end_followed(&start, |run| {
+    ///     zeros = run.watch(|at| [at.q[0]]).map_while(|zero| zero.ok()).map(|zero| zero.time).collect();
+    ///     Ok(())
+    /// })?;
+    /// assert!((reached.state.q[0] - 10.0_f64.cos()).abs() < 1e-9);
+    /// assert!(zeros.len() == 3 && (zeros[2] - 2.5 * std::f64::consts::PI).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`end`](Self::end).
+    pub fn end_followed<const N: usize>(
+        self,
+        start: &State<L::Scalar, N>,
+        mut follow: impl FnMut(&mut GuardedTrajectory<'a, L, M, N>) -> Result<(), StepError>,
+    ) -> Result<Reached<'a, L, M, N>, ToleranceError>
+    where
+        L: ActingForce<N>,
+        M: Methods<L, N>,
+    {
         let Request { system, methods, tolerance } = self.request;
-        reached((system, methods), start, [self.time, tolerance], self.bounds)
+        reached((system, methods), start, [self.time, tolerance], self.bounds, &mut |choice| {
+            let mut run = choice.trajectory();
+            let failure = follow(&mut run).err();
+            let (of_steps, of_guard) = run.evaluations();
+            Followed {
+                state: *run.state(),
+                expected: run.expected(),
+                largest: run.largest(),
+                breach: run.breach().copied(),
+                failure,
+                evaluations: of_steps + of_guard,
+            }
+        })
     }
 }
