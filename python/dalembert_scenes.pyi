@@ -396,7 +396,7 @@ class System:
         q: _Numbers,
         v: _Numbers | None = None,
         p: _Numbers | None = None,
-        t: float | None = None,
+        t: float | _Numbers | None = None,
     ) -> Any:
         """The energy v·∂L/∂v − L of a state, or of as many as there are rows."""
 

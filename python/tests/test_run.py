@@ -84,6 +84,25 @@ def test_energy_is_that_of_the_formula(ring):
     assert ring.energy(q=np.zeros((3, 4, 2)), v=np.zeros((3, 4, 2))).shape == (3, 4)
 
 
+def test_energy_is_asked_at_the_time_of_the_states(ring):
+    shaken = ShakenOscillator(m=1.3, k=2.0, r=0.1, a=0.5, omega=1.7)
+    run = shaken.run(h=0.1, steps=50, q=[0.3], v=[0.0], t=3.0)
+    states = {"q": run.q, "v": run.v}
+    assert np.array_equal(shaken.energy(t=run.t, **states), run.energy)
+    assert shaken.energy(q=run.q[7], p=run.p[7], t=run.t[7]) == run.energy[7]
+    at_one_time = shaken.energy(t=3.0, **states)
+    assert at_one_time.shape == run.t.shape and at_one_time[0] == run.energy[0]
+    with pytest.raises(TypeError, match="ShakenOscillator takes the time: give t"):
+        shaken.energy(**states)
+    for given in (1.0, run.t):
+        with pytest.raises(TypeError, match="Ring does not take the time: leave t out"):
+            ring.energy(t=given, **START)
+    with pytest.raises(ValueError, match="t: expected the shape one for all, or one for each state"):
+        shaken.energy(t=run.t[1:], **states)
+    with pytest.raises(ValueError, match="finite time"):
+        shaken.energy(t=np.nan, **states)
+
+
 @pytest.mark.parametrize("rule", ["midpoint", "gauss_4"])
 def test_derivatives_are_those_of_differences(pendulum, rule):
     start, h, steps = np.array([0.7, -0.4, 0.3, 0.2]), 0.05, 40

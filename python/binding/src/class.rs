@@ -161,6 +161,30 @@ pub fn time(kind: &dyn Kind, t: Option<f64>) -> PyResult<f64> {
     }
 }
 
+/// The times of states, one for all or one for each, of arrays of this shape; of a system that takes none, 0.
+fn times(kind: &dyn Kind, t: Option<&Bound<'_, PyAny>>, shape: &[usize]) -> PyResult<Vec<f64>> {
+    let Some(t) = t else {
+        return match kind.takes_time() {
+            false => Ok(vec![0.0]),
+            true => Err(PyTypeError::new_err(format!(
+                "{} takes the time: give t, that of the state or of each, as the t of its run",
+                kind.name()
+            ))),
+        };
+    };
+    // A system that takes none says so, whatever is given.
+    time(kind, Some(0.0))?;
+    let given = array("t", t)?;
+    if !given.shape().is_empty() && given.shape() != shape {
+        let states: Vec<String> = shape.iter().map(usize::to_string).collect();
+        let expected = format!("one for all, or one for each state, ({})", states.join(", "));
+        return Err(arguments::of_shape("t", &expected, given.shape()));
+    }
+    let times = arguments::numbers(&given);
+    times.iter().try_for_each(|&t| time(kind, Some(t)).map(drop))?;
+    Ok(times)
+}
+
 /// Translations along each coordinate, and rotations in the plane of each two.
 fn of_space(n: usize) -> Vec<Affine> {
     let unit = |k: usize| (0..n).map(|i| if i == k { 1.0 } else { 0.0 }).collect::<Vec<_>>();
@@ -481,7 +505,7 @@ impl System {
     /// Parameters
     /// ----------
     /// q, v, p : arrays whose last dimension is n
-    /// t : the time, of a system that takes it
+    /// t : the time, of a system that takes it: one for all, or one for each state
     #[pyo3(signature = (*, q, v=None, p=None, t=None))]
     fn energy<'py>(
         &self,
@@ -489,7 +513,7 @@ impl System {
         q: &Bound<'py, PyAny>,
         v: Option<&Bound<'py, PyAny>>,
         p: Option<&Bound<'py, PyAny>>,
-        t: Option<f64>,
+        t: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let model = self.model();
         let n = model.kind().coordinates();
@@ -507,11 +531,13 @@ impl System {
             return Err(arguments::of_shape(name, &format!("of q, ({})", shape.join(", ")), other.shape()));
         }
         let shape = q.shape()[..q.ndim() - 1].to_vec();
+        let times = times(model.kind(), t, &shape)?;
         let (q, other) = (arguments::numbers(&q), arguments::numbers(&other));
         let motion = if is_velocity { MotionGiven::Velocity(&other) } else { MotionGiven::Momentum(&other) };
-        let energies = py.detach(|| model.energies(t.unwrap_or(0.0), &q, motion)).map_err(|(k, error)| {
+        let energies = py.detach(|| model.energies(&times, &q, motion)).map_err(|(k, error)| {
             let row = |numbers: &[f64]| numbers[k * n..(k + 1) * n].to_vec();
-            let failure = Failure { error, step: 0, time: t.unwrap_or(0.0), state: [row(&q), row(&other)] };
+            let time = times.get(k).or(times.first()).copied().unwrap_or(0.0);
+            let failure = Failure { error, step: 0, time, state: [row(&q), row(&other)] };
             of_step(py, &failure, None)
         })?;
         match (shape.is_empty(), energies.first()) {

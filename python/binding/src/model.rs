@@ -103,12 +103,16 @@ pub trait Model: Send + Sync {
         members_per_part: u64,
     ) -> Result<Written, NoResult>;
 
-    /// The velocities and energies of states, q and v or p of one after the other.
+    /// The energies of states, q and v or p of one after the other, at one time or each at its own.
     ///
     /// # Errors
     /// The one that fails.
-    fn energies(&self, time: f64, q: &[f64], motion: MotionGiven<'_>)
-    -> Result<Vec<f64>, (usize, StepError)>;
+    fn energies(
+        &self,
+        times: &[f64],
+        q: &[f64],
+        motion: MotionGiven<'_>,
+    ) -> Result<Vec<f64>, (usize, StepError)>;
 }
 
 /// A watcher of a run: it is told of the steps taken and to take, and may call it off.
@@ -401,16 +405,18 @@ impl<S: System<N>, const N: usize> Model for ModelOf<S, N> {
 
     fn energies(
         &self,
-        time: f64,
+        times: &[f64],
         q: &[f64],
         motion: MotionGiven<'_>,
     ) -> Result<Vec<f64>, (usize, StepError)> {
-        let system = S::view(&self.fields, &vec![0.0; S::INPUTS], time);
+        let inputs = vec![0.0; S::INPUTS];
         let vector = SVector::<f64, N>::from_column_slice;
         let (MotionGiven::Velocity(other) | MotionGiven::Momentum(other)) = motion;
         let states = q.chunks_exact(N).zip(other.chunks_exact(N)).enumerate();
         let energy = |(k, (q, other)): (usize, (&[f64], &[f64]))| {
             let q = vector(q);
+            let time = times.get(k).or(times.first()).copied().unwrap_or(0.0);
+            let system = S::view(&self.fields, &inputs, time);
             match motion {
                 MotionGiven::Velocity(_) => Ok(system.energy(&q, &vector(other))),
                 MotionGiven::Momentum(_) => measured(&system, &State { q, p: vector(other) })
