@@ -238,7 +238,7 @@ class Parts:
         """Parts that were there."""
     @property
     def failed(self) -> int:
-        """Members computed that failed."""
+        """Members that failed, of parts written and found."""
     @property
     def paths(self) -> list[Path]:
         """The files, in order."""

@@ -5,6 +5,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 
 import numpy as np
 import pyarrow.parquet as parquet
@@ -127,6 +128,36 @@ def test_events_of_members_of_all_kinds():
         run = HenonHeiles().run(tolerance=1e-7, until=5.0, q=q[k], v=v[k], events=[plane])
         assert np.array_equal(to_error.events[0].t[to_error.events[0].member == k], run.events[0].t)
     assert timed.events[0].t == pytest.approx([4.25] * 5, abs=1e-12) and list(timed.events[0].member) == [0, 1, 2, 3, 4]
+
+
+def test_members_to_a_tolerance_try_as_many_runs_whether_they_are_watched_or_not():
+    # Chaos: a run may pass its error on the way, and another one is tried.
+    star, plane = HenonHeiles(), Plane([1.0, 0.0])
+    q, v = np.array([[0.0, -0.25], [0.0, -0.2], [0.0, 0.1]]), np.array([[0.42, 0.0], [0.4, 0.1], [0.1, 0.1]])
+    at = {"tolerance": 1e-6, "until": 100.0}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        alone = [star.run(q=q[k], v=v[k], every=10**9, events=[plane], **at) for k in range(3)]
+    assert any(run.breach is not None for run in alone)
+    ends, watched = star.ensemble(q=q, v=v, **at), star.ensemble(q=q, v=v, events=[plane], **at)
+    assert list(ends.failures) == list(watched.failures) and len(ends.failures) < 3
+    assert np.array_equal(ends.q, watched.q, equal_nan=True) and np.array_equal(ends.p, watched.p, equal_nan=True)
+    for k, run in enumerate(alone):
+        mine = watched.events[0].member == k
+        # Of the run that was taken alone: as many as of the first, not one after the other.
+        assert k in ends.failures or abs(mine.sum() - len(run.events[0])) <= 1
+        assert (np.diff(watched.events[0].t[mine]) > 0).all()
+    out_of_reach = star.ensemble(tolerance=1e-30, until=1.0, q=q, v=v, events=[plane])
+    assert all(isinstance(out_of_reach.failures[k], ToleranceError) for k in range(3))
+
+
+def test_members_that_failed_are_counted_where_they_are_found(tmp_path):
+    q, v = starts(30, 0.1)
+    q[[3, 13, 25]] = np.nan
+    given = {"h": 0.1, "steps": 5, "q": q, "v": v, "folder": tmp_path, "members_per_part": 10}
+    first, second = HenonHeiles().ensemble(**given), HenonHeiles().ensemble(**given)
+    assert (first.written, first.found, first.failed) == (3, 0, 3)
+    assert (second.written, second.found, second.failed) == (0, 3, 3) and "3 members failed" in repr(second)
 
 
 def test_members_that_are_watched_fail_alone(tmp_path):

@@ -345,8 +345,14 @@ impl System {
         }
         let raised = Mutex::new(None);
         let events = watching::functions(py, events, kind.coordinates(), &raised)?;
-        let asked =
-            Asked { start: given.start(), stepping, every, is_differentiated: derivatives, events: &events };
+        let asked = Asked {
+            start: given.start(),
+            stepping,
+            every,
+            is_differentiated: derivatives,
+            events: &events,
+            is_tried: false,
+        };
         let mut interruption = None;
         let ran = py.detach(|| {
             let mut watch = |done: u64, of: u64| {

@@ -63,7 +63,7 @@ pub struct Parts {
     written: u64,
     /// Parts that were there.
     found: u64,
-    /// Members computed that failed.
+    /// Members that failed, of parts written and found.
     failed: u64,
     /// The files, in order.
     paths: Vec<PathBuf>,

@@ -75,6 +75,14 @@ pub struct Events<'a> {
     pub error: Option<EventError>,
 }
 
+impl Events<'_> {
+    /// Begins with another run.
+    pub fn begin(&mut self) {
+        self.found = vec![Found::default(); self.asked.len()];
+        self.error = None;
+    }
+}
+
 /// A function of the index of a node, of q there and of v.
 type Visit<'v, const N: usize> = dyn FnMut(usize, &SVector<f64, N>, &SVector<f64, N>) + 'v;
 

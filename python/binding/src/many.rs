@@ -174,7 +174,7 @@ pub struct Written {
     pub written: u64,
     /// Parts that were there.
     pub found: u64,
-    /// Members computed that failed.
+    /// Members that failed, of parts written and found.
     pub failed: u64,
     /// The files, one a part.
     pub paths: Vec<PathBuf>,

@@ -169,6 +169,8 @@ pub struct Run<'a> {
     pub is_differentiated: bool,
     /// Events to look for on the way.
     pub events: &'a [Event<'a>],
+    /// Whether, to an error asked for, as many runs are tried as it takes to keep it.
+    pub is_tried: bool,
 }
 
 /// The records of a run, whole or up to where it stopped.
@@ -317,7 +319,7 @@ impl<S: System<N>, const N: usize> Model for ModelOf<S, N> {
     }
 
     fn run(&self, run: &Run<'_>, watch: Watch<'_>) -> Result<Ran, Refusal> {
-        let Run { start: given, stepping, every, is_differentiated, events: asked } = run;
+        let Run { start: given, stepping, every, is_differentiated, events: asked, is_tried } = run;
         let start = self.state(given)?;
         let found = vec![Found::default(); asked.len()];
         let mut events = Events { asked, origin: given.time, found, error: None };
@@ -339,6 +341,20 @@ impl<S: System<N>, const N: usize> Model for ModelOf<S, N> {
                 } else {
                     let driven = driven.ok_or(Refusal::NotDriven)?;
                     driven.run(&self.fields, given, h, &start, *is_differentiated, &mut record);
+                }
+            }
+            Stepping::ToError(asked) if *is_tried => {
+                let steps = S::steps_to_error().ok_or(Refusal::NoError)?;
+                let mut record = |motion: &mut dyn Motion<N>, steps| {
+                    let plan = Plan { steps, every: *every, origin: given.time };
+                    ran = Record::of(motion, &plan, watch);
+                    if let (_, Some(Stop::Failed(failure))) = &ran { Some(failure.error) } else { None }
+                };
+                let tried =
+                    steps.tried(&self.fields, Self::given(given), asked, &start, &mut events, &mut record);
+                // A run that was called off says nothing of its error.
+                if !matches!(ran.1, Some(Stop::Interrupted | Stop::TooLarge(_))) {
+                    tried.map_err(Refusal::Tolerance)?;
                 }
             }
             Stepping::ToError(asked) => {

@@ -128,6 +128,21 @@ pub trait StepsToError<S: System<N>, const N: usize>: Send + Sync {
         record: &mut dyn FnMut(&mut dyn Motion<N>, u64),
     ) -> Result<Guarded, ToleranceError>;
 
+    /// As many runs from `start` as it takes to keep the error, each of them recorded anew; `record` hands on
+    /// why steps fail.
+    ///
+    /// # Errors
+    /// A [`ToleranceError`].
+    fn tried(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        asked: ErrorAsked,
+        start: &State<f64, N>,
+        events: &mut Events<'_>,
+        record: &mut dyn FnMut(&mut dyn Motion<N>, u64) -> Option<StepError>,
+    ) -> Result<(), ToleranceError>;
+
     /// The runs of many.
     fn together<'a>(&self, asked: ErrorAsked) -> Box<dyn Together<S::View<'a>, N> + 'a>;
 }
@@ -406,6 +421,25 @@ where
             expected: run.expected(),
             breach: run.breach().copied(),
         })
+    }
+
+    fn tried(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        asked: ErrorAsked,
+        start: &State<f64, N>,
+        events: &mut Events<'_>,
+        record: &mut dyn FnMut(&mut dyn Motion<N>, u64) -> Option<StepError>,
+    ) -> Result<(), ToleranceError> {
+        let system = S::view(fields, given.inputs, given.time);
+        let reached = system.to_error(asked.tolerance).until(asked.until).end_followed(start, |run| {
+            let (steps, mut failure) = (run.choice().steps(), None);
+            events.begin();
+            watched(run, events, &mut |motion| failure = record(motion, steps));
+            failure.map_or(Ok(()), Err)
+        });
+        reached.map(drop)
     }
 
     fn together<'a>(&self, asked: ErrorAsked) -> Box<dyn Together<S::View<'a>, N> + 'a> {

@@ -79,7 +79,8 @@ fn run(
     let motion = if asked.is_velocity { MotionGiven::Velocity(other) } else { MotionGiven::Momentum(other) };
     let start = Start { q: asked.q.of(member), motion, inputs: asked.inputs.of(member), time: asked.time };
     let every = asked.every.unwrap_or(u64::MAX);
-    let run = Run { start, stepping: asked.stepping, every, is_differentiated: false, events };
+    let run =
+        Run { start, stepping: asked.stepping, every, is_differentiated: false, events, is_tried: true };
     let mut watch = |_, _| match control.cancel.load(Ordering::Relaxed) {
         true => ControlFlow::Break(()),
         false => ControlFlow::Continue(()),
@@ -95,7 +96,7 @@ fn run(
     match ran {
         Ok(ran) => outcome(ran, number),
         Err(Refusal::Start(failure)) => without_start(MemberError::Step(failure.error).into()),
-        Err(Refusal::Tolerance(error)) => without_start(MemberError::Tolerance(error).into()),
+        Err(Refusal::Tolerance(error)) => without_start(MemberError::from(error).into()),
         Err(refusal) => Err(NoResult::Refused(refusal)),
     }
 }
