@@ -16,7 +16,6 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, ensure};
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
-use dalembert::run::Run as _;
 use dalembert::{Discretise, State, StepError, Trapezoidal, rayleigh_system};
 use dalembert_examples::control::{self, Estimate, Linearised, Plan, Problem, Quadratic, SensorClock};
 use dalembert_examples::picture::{self, Curve, Dash, Panel, colour, linear, logarithmic};

@@ -10,8 +10,8 @@
 //! ```
 
 use anyhow::{Result, bail};
+use dalembert::run::DrivenTrajectory;
 use dalembert::run::events::{Crossing, EventError, Watched};
-use dalembert::run::{DrivenTrajectory, Run};
 use dalembert::{Discretise, Gauss, State, rayleigh_system};
 use dalembert_examples::picture::{self, Curve, Dash, Mark, Panel, colour, linear};
 use nalgebra::vector;

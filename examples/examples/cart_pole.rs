@@ -17,7 +17,6 @@ use std::time::Instant;
 use anyhow::{Context, Result, ensure};
 use dalembert::derivative::PhaseMatrix;
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
-use dalembert::run::Run as _;
 use dalembert::{Discretise, State, StepError, Trapezoidal, rayleigh_system};
 use dalembert_examples::control::{self, Linearised, Plan, Problem, Quadratic, SensorClock};
 use dalembert_examples::picture::{self, Curve, Dash, Mark, Panel, colour, linear};
