@@ -24,10 +24,10 @@ pub(crate) fn explained(error: StepError, cause: &dyn Fn() -> Option<StepError>)
     }
 }
 
-/// The `error`: nothing looks for its cause.
+/// The `error`: nothing looks for its cause, and no code that would is compiled.
 #[cfg(not(feature = "std"))]
 #[inline(always)]
-pub(crate) fn explained(error: StepError, _: &dyn Fn() -> Option<StepError>) -> StepError {
+pub(crate) fn explained(error: StepError, _: &(impl Fn() -> Option<StepError> + ?Sized)) -> StepError {
     error
 }
 
