@@ -208,6 +208,17 @@ where
     search::choice((system, methods), start, [time, tolerance], bounds)
 }
 
+/// The local error of a step of this order, from its end and that of two half ones.
+fn local_error<S: Scalar, const N: usize>(
+    order: u32,
+    whole: &State<S, N>,
+    halves: &State<S, N>,
+) -> State<S, N> {
+    let power = f64::from(1_u32 << order);
+    let factor = S::constant(power / (power - 1.0));
+    State { q: (whole.q - halves.q) * factor, p: (whole.p - halves.p) * factor }
+}
+
 impl<S, const N: usize> Chosen<S, N> {
     /// The first segment of its grid.
     fn first_segment(&self) -> Segment {
@@ -324,23 +335,6 @@ impl Method {
         bounded((system, methods), start, [time, tolerance], Bounds::default())
     }
 
-    /// The local error of a step, from its end and that of two half ones.
-    fn local_error<S: Scalar, const N: usize>(
-        self,
-        whole: &State<S, N>,
-        halves: &State<S, N>,
-    ) -> State<S, N> {
-        let power = f64::from(1_u32 << self.order());
-        let factor = S::constant(power / (power - 1.0));
-        State { q: (whole.q - halves.q) * factor, p: (whole.p - halves.p) * factor }
-    }
-
-    /// The local error of a step over a jump: of order 1, whatever the method's order.
-    fn error_at_a_jump<S: Scalar, const N: usize>(whole: &State<S, N>, halves: &State<S, N>) -> State<S, N> {
-        let two = S::constant(2.0);
-        State { q: (whole.q - halves.q) * two, p: (whole.p - halves.p) * two }
-    }
-
     /// Roundings of q in a step.
     const fn roundings(self) -> f64 {
         match self {
@@ -451,17 +445,18 @@ where
 
     /// The run of this choice, with its guard.
     pub fn trajectory(&self) -> GuardedTrajectory<'a, L, M, N> {
-        match self.fresh_steps(self.chosen.first_segment().step_size()) {
-            Some(steps) => GuardedTrajectory::new(*self, steps),
-            _ => unreachable!("the method was tried before it was chosen"),
-        }
+        self.run(true)
     }
 
     /// The run of this choice without its guard, for who knows the motion: nothing is held against the error,
     /// and nothing is spent on it.
     pub fn unguarded(&self) -> GuardedTrajectory<'a, L, M, N> {
+        self.run(false)
+    }
+
+    fn run(&self, is_guarded: bool) -> GuardedTrajectory<'a, L, M, N> {
         match self.fresh_steps(self.chosen.first_segment().step_size()) {
-            Some(steps) => GuardedTrajectory::unguarded(*self, steps),
+            Some(steps) => GuardedTrajectory::new(*self, steps, is_guarded),
             _ => unreachable!("the method was tried before it was chosen"),
         }
     }

@@ -33,8 +33,7 @@ pub(crate) fn explained(error: StepError, _: &(impl Fn() -> Option<StepError> + 
 
 /// The cause of numbers that are not finite: an operation that has no derivative there, else an input, time
 /// or field that is no number, else the function with that derivative.
-#[cfg_attr(feature = "std", cold)]
-#[cfg_attr(not(feature = "std"), inline(always))]
+#[cold]
 pub(crate) fn cause_of<L: Lagrangian<N> + ?Sized, const N: usize>(
     system: &L,
     found: Option<NoDerivative>,

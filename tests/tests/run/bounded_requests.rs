@@ -99,9 +99,26 @@ fn a_motion_that_never_begins_is_no_verdict() {
     let view = still.at_time(0.0);
     let bounded = view.to_error(1e-6).until(10.0).longest_step(0.5).end(&start).unwrap();
     assert_eq!(bounded.state, start);
+    // A drive that is seen, and moves nothing at rest, is no reason to refuse.
+    let rocked = Rocked { a: 0.4, frequency: 7.0 };
+    let view = rocked.at_time(0.0);
+    assert_eq!(view.to_error(1e-6).until(10.0).end(&start).unwrap().state, start);
     // Rest of a system that takes no time is known.
     let rest = Pendulum {}.to_error(1e-6).until(10.0).end(&start).unwrap();
     assert_eq!(rest.expected, 0.0);
+}
+
+/// A mass on a spring whose stiffness changes with time.
+struct Rocked {
+    a: f64,
+    frequency: f64,
+}
+
+#[rayleigh_system(rule = [trapezoidal, gauss])]
+impl Rocked {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+        0.5 * v[0] * v[0] - 0.5 * (1.0 + self.a * (self.frequency * t).cos()) * q[0] * q[0]
+    }
 }
 
 #[rayleigh_system(rule = [trapezoidal, gauss])]

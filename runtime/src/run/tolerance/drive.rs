@@ -4,7 +4,8 @@ use super::variation::Variation;
 use crate::numbers::Scalar;
 use crate::step::PhaseMatrix;
 
-/// When J is looked at at the start of a run, as shares of its time: at no common fraction of a period.
+/// When a system that takes the time is looked at before its run, as shares of that: at the start a drive may
+/// do nothing yet. No common fraction of a period.
 pub(super) const DRIVES: [f64; 5] = [0.013, 0.17, 0.41, 0.67, 0.89];
 
 /// The share of its largest changes so far that still counts after a look.

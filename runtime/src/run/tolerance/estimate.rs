@@ -32,9 +32,6 @@ const PART: f64 = 4.0;
 /// Shares that are unsure: of the local errors added up, and of an error carried over the larger [`ANGLE`].
 const UNSURE: [f64; 2] = [0.3, 0.02];
 
-/// A share of J, squared, that is no more than rounding.
-const SLIGHTEST: f64 = 1e-4;
-
 /// Where J changes by less than this, squared, its mean serves for any number of turns.
 const SLIGHT: f64 = 0.1;
 
@@ -282,7 +279,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
             self.evaluations += 2.0;
             let later = |system: &L| start.in_time(system);
             let later = system.later(S::constant(share * ahead), later);
-            later.is_none_or(|later| start.change_to(&later).1 > SLIGHTEST)
+            later.is_none_or(|later| start.is_another(&later))
         });
         is_other.then(|| Drive::from(start))
     }

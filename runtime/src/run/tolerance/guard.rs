@@ -7,7 +7,9 @@ use super::grid::Segment;
 use super::random::Random;
 use super::scale::Scale;
 use super::unresolved::Unresolved;
-use super::{Breach, Choice, Chosen, LastStep, Method, MethodStep, Methods, OffersMethods, ToleranceError};
+use super::{
+    Breach, Choice, Chosen, LastStep, MethodStep, Methods, OffersMethods, ToleranceError, local_error,
+};
 use crate::numbers::Scalar;
 use crate::run::present::at_present;
 use crate::run::{Run, Samples};
@@ -148,7 +150,7 @@ where
     L: ActingForce<N>,
     M: Methods<L, N>,
 {
-    pub(super) fn new(choice: Choice<'a, L, M, N>, [step, half]: [M::Step; 2]) -> Self {
+    pub(super) fn new(choice: Choice<'a, L, M, N>, [step, half]: [M::Step; 2], is_on: bool) -> Self {
         let Choice { system, chosen, .. } = choice;
         let (start, scale) = (chosen.start, Scale::new(&chosen.start));
         let is_coarse = N > RESOLVED && derivatives(N) > chosen.evaluations_per_step;
@@ -169,7 +171,7 @@ where
             state: start,
             taken: 0,
             segment: chosen.first_segment(),
-            is_on: true,
+            is_on,
             scale,
             evaluations: 0.0,
             looked: 0.0,
@@ -189,13 +191,6 @@ where
         let mut guarded = Self { choice, step, half, guard, failed: false };
         guarded.schedule_derivatives();
         guarded
-    }
-
-    /// The run without its guard.
-    pub(super) fn unguarded(choice: Choice<'a, L, M, N>, steps: [M::Step; 2]) -> Self {
-        let mut run = Self::new(choice, steps);
-        run.guard.is_on = false;
-        run
     }
 
     /// All that is needed to go on from here, in this process or another ([`GuardedTrajectory::resume`]): the
@@ -432,11 +427,8 @@ where
             self.report(f64::INFINITY);
             return;
         };
-        let local = if is_struck {
-            Method::error_at_a_jump(&self.guard.state, &halves)
-        } else {
-            self.choice.chosen.method.local_error(&self.guard.state, &halves)
-        };
+        let order = if is_struck { 1 } else { self.choice.chosen.method.order() };
+        let local = local_error(order, &self.guard.state, &halves);
         let over_a_turn = self.guard.estimate.over_a_turn(&local, &self.guard.scale);
         let size = self.guard.scale.largest(&over_a_turn);
         let unseen = match unresolved {

@@ -2,11 +2,12 @@
 
 use nalgebra::ComplexField;
 
+use super::drive::DRIVES;
 use super::grid::{Bounds, segments};
 use super::random::Random;
 use super::scale::Scale;
 use super::variation::Variation;
-use super::{Choice, Chosen, Method, MethodStep, Methods, ToleranceError, Trial};
+use super::{Choice, Chosen, Method, MethodStep, Methods, ToleranceError, Trial, local_error};
 use crate::numbers::Scalar;
 use crate::step::{State, StepError};
 use crate::system::{ActingForce, Lagrangian, is_timed};
@@ -50,9 +51,6 @@ struct Start<'a, L: Lagrangian<N>, M, const N: usize> {
     reach: f64,
     spent: f64,
 }
-
-/// When a drive is looked at, as shares of the run: at its start it may do nothing yet.
-const DRIVES: [f64; 4] = [0.17, 0.41, 0.67, 0.89];
 
 /// How often a force is looked for where a motion starts at rest.
 const LOOKS: u32 = 256;
@@ -228,18 +226,25 @@ where
         }
         let zero = nalgebra::SVector::zeros();
         let Some(rest) = Variation::at(self.system, &self.state, &zero) else { return Ok(()) };
-        let mut seen = 0;
+        let (mut seen, mut is_driven) = (0, false);
         let mut random = Random::new(0x5851_f42d_4c95_7f2d);
         for look in 0..LOOKS {
             self.spent += 2.0;
             let within = (f64::from(look) + random.unit()) / f64::from(LOOKS);
-            let at = |system: &L| rest.change_of_force(system);
-            let change = self.system.later(L::Scalar::constant(within * self.time), at);
-            seen += u32::from(change > 0.0);
-            let acceleration = (rest.matrix.q_by_p.norm().widen()) * change;
-            self.reach = self.reach.max(0.5 * acceleration / (self.fastest * self.fastest));
+            let at = |system: &L| rest.in_time(system);
+            let Some(later) = self.system.later(L::Scalar::constant(within * self.time), at) else {
+                continue;
+            };
+            let reach = self.reach_of(&later);
+            seen += u32::from(reach > 0.0);
+            self.reach = self.reach.max(reach);
+            is_driven |= rest.is_another(&later);
         }
         if seen == 0 {
+            // A drive of the springs, say, is seen, and moves nothing that rests where they push nowhere.
+            if is_driven {
+                return Ok(());
+            }
             let apart = self.time / f64::from(LOOKS);
             return Err(ToleranceError::NothingMoves { looks: LOOKS, apart });
         }
@@ -307,7 +312,7 @@ where
         let first = halves.advance(system, elapsed, state).map_err(Some)?;
         let second = halves.advance(system, elapsed + half.widen(), &first.step.state).map_err(Some)?;
         self.spent += whole.evaluations + first.evaluations + second.evaluations;
-        let local = self.norm(&method.local_error(&whole.step.state, &second.step.state));
+        let local = self.norm(&local_error(method.order(), &whole.step.state, &second.step.state));
         Ok(Measured { local, evaluations: whole.evaluations })
     }
 

@@ -42,6 +42,9 @@ pub(super) struct Variation<S, const N: usize> {
     pub(super) is_forced: bool,
 }
 
+/// The root of a share of J that is no more than rounding.
+const SLIGHTEST: f64 = 1e-4;
+
 /// A velocity that Newton's method changes by less than this share is that of the state.
 const VELOCITY: f64 = 1e-3;
 
@@ -96,6 +99,11 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
         L: ActingForce<N, Scalar = S>,
     {
         Self::at(later, &self.at, &self.rate.q)
+    }
+
+    /// Whether J is another at `other`, by more than rounding.
+    pub(super) fn is_another(&self, other: &Self) -> bool {
+        self.change_to(other).1 > SLIGHTEST
     }
 
     /// The velocity at another state near by.
