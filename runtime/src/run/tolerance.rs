@@ -226,7 +226,7 @@ impl<S, const N: usize> Chosen<S, N> {
     }
 
     fn slack(&self) -> Option<f64> {
-        let is_left = matches!(self.method, Method::Gauss4 | Method::Gauss8);
+        let is_left = self.method.is_gauss();
         is_left.then(|| SLACK * self.aim / self.steps as f64)
     }
 }
@@ -333,6 +333,11 @@ impl Method {
         M: Methods<L, N>,
     {
         bounded((system, methods), start, [time, tolerance], Bounds::default())
+    }
+
+    /// Whether its steps show what they do not resolve.
+    const fn is_gauss(self) -> bool {
+        matches!(self, Self::Gauss4 | Self::Gauss8)
     }
 
     /// Roundings of q in a step.

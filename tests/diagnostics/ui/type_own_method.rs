@@ -24,8 +24,8 @@ struct System { k: f64 }
 impl System {
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
         let height: f64 = q.iter().map(|x| x.bent(self.k)).sum();
-        let [x, _] = q;
-        0.5 * v[0] * v[0].len() + x.len() - self.k.curve() * q[0].curve() - height
+        let ([x, _], (y, _)) = (q, (v[1], 0.5));
+        0.5 * v[0] * v[0].len() + x.len() - y.len() - self.k.curve() * q[0].curve() - height
     }
 }
 

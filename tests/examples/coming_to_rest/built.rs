@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, Result, ensure};
 
 use super::beside::Beside;
-use super::counts::Counts;
+use super::counts::{Counts, End};
 use super::methods::{self, METHODS};
 use super::system::System;
 
@@ -48,14 +48,15 @@ pub fn run(Draw { count, seed, members, most, time, workspace }: &Draw<'_>) -> R
             let (end, _, name) = (words.next(), words.next(), words.next());
             let method =
                 METHODS.iter().find(|method| Some(method.name) == name).context("an unknown method")?;
-            let steps = match end {
-                Some("ended") => words.next().and_then(|word| word.parse().ok()),
-                _ => {
-                    println!("{line}");
-                    None
-                }
+            let end = match end {
+                Some("ended") => End::After(words.next().context("steps")?.parse()?),
+                Some("outside") => End::OutsideTheRange,
+                _ => End::Refused,
             };
-            counts.add(method.name, steps);
+            if !matches!(end, End::After(_)) {
+                println!("{line}");
+            }
+            counts.add(method.name, &end);
         }
     }
     Ok(counts)

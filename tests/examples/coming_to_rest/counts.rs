@@ -11,28 +11,42 @@ use anyhow::{Context as _, Result};
 pub struct Counts {
     /// Systems drawn.
     pub systems: u64,
-    /// Runs, refused ones among them, and steps of the others, by method.
-    pub runs: BTreeMap<String, [u64; 3]>,
+    /// Runs, refused ones among them, steps of those that ended, and runs that left the range of h, by
+    /// method.
+    pub runs: BTreeMap<String, [u64; 4]>,
+}
+
+/// How a run ended.
+pub enum End {
+    /// At its time or at rest, after so many steps.
+    After(u64),
+    /// By an error of a step within the range of h.
+    Refused,
+    /// By an error where h is too long for the motion.
+    OutsideTheRange,
 }
 
 impl Counts {
-    /// A run of so many steps, or a refused one.
-    pub fn add(&mut self, method: &str, steps: Option<u64>) {
-        let [runs, refused, all] = self.runs.entry(method.to_owned()).or_default();
+    /// A run, by how it ended.
+    pub fn add(&mut self, method: &str, end: &End) {
+        let [runs, refused, steps, outside] = self.runs.entry(method.to_owned()).or_default();
         *runs += 1;
-        *refused += u64::from(steps.is_none());
-        *all += steps.unwrap_or(0);
+        match end {
+            End::After(taken) => *steps += taken,
+            End::Refused => *refused += 1,
+            End::OutsideTheRange => *outside += 1,
+        }
     }
 
     pub fn refused(&self) -> u64 {
-        self.runs.values().map(|[_, refused, _]| refused).sum()
+        self.runs.values().map(|[_, refused, ..]| refused).sum()
     }
 
-    /// `systems count`, and `method runs refused steps`, a line each.
+    /// `systems count`, and `method runs refused steps outside`, a line each.
     pub fn text(&self) -> String {
         let mut text = format!("systems {}\n", self.systems);
-        for (method, [runs, refused, steps]) in &self.runs {
-            writeln!(text, "{method} {runs} {refused} {steps}").expect("a string takes all");
+        for (method, [runs, refused, steps, outside]) in &self.runs {
+            writeln!(text, "{method} {runs} {refused} {steps} {outside}").expect("a string takes all");
         }
         text
     }

@@ -13,14 +13,17 @@ use super::random::Random;
 use super::scale::Scale;
 use super::shift::{along_the_motion, shift};
 use super::tangent::carried;
-use super::twin;
+use super::twin::{self, Kept};
 use super::variation::Variation;
 use crate::numbers::Scalar;
 use crate::step::State;
 use crate::system::{ActingForce, Lagrangian, is_timed};
 
 /// The angle by which an error turns between two derivatives at most, without states between and with them.
-pub(super) const ANGLE: [f64; 2] = [0.3, 1.0];
+const ANGLE: [f64; 2] = [0.3, 1.5];
+
+/// The larger where the system takes the time: states between are known to less.
+const ANGLE_IN_TIME: f64 = 1.0;
 
 /// An error of the energy beyond so many times what was foreseen is news.
 const UNFORESEEN: f64 = 10.0;
@@ -121,6 +124,11 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         }
     }
 
+    /// The angle by which an error may turn from one state of the run to the next.
+    pub(super) fn angle(&self) -> f64 {
+        if self.is_timed { ANGLE_IN_TIME } else { ANGLE[1] }
+    }
+
     /// Whether J changes with time.
     pub(super) fn is_driven(&self) -> bool {
         self.drive.is_some()
@@ -144,6 +152,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         state: &State<S, N>,
         [elapsed, time]: [f64; 2],
         scale: &Scale<S, N>,
+        kept: &mut Kept<M::Step>,
     ) where
         L: ActingForce<N, Scalar = S>,
         M: Methods<L, N>,
@@ -152,7 +161,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         let rate = last.fastest.widen();
         if scale.norm(&self.error) > 0.0
             && let Some((error, evaluations)) =
-                twin::carried((system, methods), state, &self.error, [elapsed, time, rate], scale)
+                twin::carried((system, methods), state, &self.error, [elapsed, time, rate], scale, kept)
         {
             self.error = error;
             self.evaluations += evaluations;
@@ -234,15 +243,16 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         L: ActingForce<N, Scalar = S>,
     {
         let Some(variation) = self.variation(system, state, time) else { return };
+        let unit = variation.of_unit_energy(scale);
         if let Some((last, before)) = self.last {
-            self.transport(system, [&last, &variation], [before, time], scale, since);
+            self.transport(system, [&last, &variation], [before, time], &unit, scale, since);
         }
         let elapsed = time - self.last.map_or(0.0, |last| last.1);
         if self.is_timed && self.last.is_none() {
             self.drive = self.driven(system, &variation, since.ahead);
         }
         let rounding = rounding(&variation, state, scale, elapsed, since);
-        self.rounding = nalgebra::ComplexField::hypot(self.rounding, scale.norm(&rounding));
+        self.rounding = root_of_squares([self.rounding, scale.norm(&rounding)]);
         self.err(&rounding, 2.0);
         // Until the next look all that has passed may have grown.
         let (local, times) = &since.passed;
@@ -257,14 +267,14 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
             self.evaluations += 3.0;
             let now = variation.energy(system) - start;
             self.energy = Some([start, now]);
-            let made = scale.norm(&variation.of_energy(now - error, scale));
+            let made = scale.norm(&unit) * nalgebra::ComplexField::abs((now - error).widen());
             if made > UNFORESEEN * since.foreseen + 4.0 * self.rounding {
                 self.err(&scale.of_size(made), 2.0);
             }
-            self.error = variation.with_energy(&self.error, now, scale);
+            self.error = variation.with_energy(&self.error, now, &unit);
         }
         if self.energy.is_some() {
-            self.unsure = self.unsure.map(|error| variation.with_energy(&error, S::zero(), scale));
+            self.unsure = self.unsure.map(|error| variation.with_energy(&error, S::zero(), &unit));
         }
         self.last = Some((variation, time));
     }
@@ -290,6 +300,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         system: &L,
         [last, to]: [&Variation<S, N>; 2],
         [before, time]: [f64; 2],
+        unit: &State<S, N>,
         scale: &Scale<S, N>,
         since: &Since<S, N>,
     ) where
@@ -310,8 +321,9 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         }
         let angle = self.speed * t.widen();
         let most = if self.is_coarse { 1.0 } else { (since.affordable / PART).clamp(1.0, MOST_PARTS) };
-        let parts = nalgebra::ComplexField::ceil((angle / ANGLE[1]).min(nalgebra::ComplexField::floor(most)))
-            .max(1.0);
+        let parts =
+            nalgebra::ComplexField::ceil((angle / self.angle()).min(nalgebra::ComplexField::floor(most)))
+                .max(1.0);
         let part = t / S::constant(parts);
         let is_slight = self.share < SLIGHT && self.drive.is_none();
         let is_short = self.is_coarse || is_slight || angle < ANGLE[0] || since.affordable < PART;
@@ -348,12 +360,12 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         if self.is_coarse {
             errors[0] = self.error;
         } else if self.energy.is_some() {
-            errors[0] = to.with_energy(&errors[0], last.energy_of(&self.error), scale);
+            errors[0] = to.with_energy(&errors[0], last.energy_of(&self.error), unit);
         }
         [self.error, self.unsure[0], self.unsure[1]] = errors;
         let shift = if is_timed { S::zero() } else { shift(&self.error, &to.rate, scale) };
         let across = plus(&self.error, &to.rate, -shift);
-        self.err(&across, UNSURE[1] * (angle / parts / ANGLE[1]).min(1.0));
+        self.err(&across, UNSURE[1] * (angle / parts / self.angle()).min(1.0));
         let growth = scale.norm(&self.error) / size;
         if growth.is_finite() {
             self.growth *= growth;
@@ -369,13 +381,13 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
 
     /// The error expected of the state last looked at.
     pub(super) fn size(&self, scale: &Scale<S, N>) -> f64 {
-        let sizes = self
-            .unsure
-            .iter()
-            .chain([&self.error])
-            .map(|error| scale.largest(&self.over_a_turn(error, scale)));
-        nalgebra::ComplexField::sqrt(sizes.map(|size| size * size).sum::<f64>())
+        let [a, b] = &self.unsure;
+        root_of_squares([&self.error, a, b].map(|error| scale.largest(&self.over_a_turn(error, scale))))
     }
+}
+
+fn root_of_squares<const K: usize>(sizes: [f64; K]) -> f64 {
+    nalgebra::ComplexField::sqrt(sizes.map(|size| size * size).iter().sum::<f64>())
 }
 
 /// The rounding error of the state over some steps: of q and p by their own rounding, and of p by that of the
@@ -391,6 +403,6 @@ fn rounding<S: Scalar, const N: usize>(
     let each =
         scale.of_size(S::EPSILON.widen() * scale.furthest.widen() * root(since.roundings * since.steps));
     let angle = at.fastest.widen() * time / since.steps.max(1.0);
-    let of_force = S::EPSILON.widen() * state.q.amax().widen() * at.impedance() * angle * root(since.steps);
+    let of_force = S::EPSILON.widen() * state.q.amax().widen() * at.impedance * angle * root(since.steps);
     State { q: each.q, p: each.p.add_scalar(S::constant(of_force)) }
 }

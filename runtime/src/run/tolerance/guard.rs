@@ -2,10 +2,11 @@
 
 use nalgebra::SVector;
 
-use super::estimate::{ANGLE, Estimate, Since};
+use super::estimate::{Estimate, Since};
 use super::grid::Segment;
 use super::random::Random;
 use super::scale::Scale;
+use super::twin::Kept;
 use super::unresolved::Unresolved;
 use super::{
     Breach, Choice, Chosen, LastStep, MethodStep, Methods, OffersMethods, ToleranceError, local_error,
@@ -19,8 +20,10 @@ use crate::system::ActingForce;
 /// Steps between two looks at most.
 const STRIDE: u64 = 40;
 
-/// Runs of fewer steps are looked at in every step.
+/// Runs of fewer steps are looked at in every step, unless the steps between show what they err by: then so
+/// often, where that is more than once in [`STRIDE`].
 const FEW: u64 = 100;
+const LOOKS: u64 = 12;
 
 /// The share of the run's cost that the motion's derivatives along it may take.
 const SHARE: f64 = 0.05;
@@ -55,10 +58,11 @@ const STROKE: f64 = 0.05;
 /// δ_{k+1} = A_k δ_k + d_k
 /// ```
 ///
-/// - d_k, the local error, is the difference to two half steps. Of a run of fewer than 100 steps it is taken
-///   at every one, else at some, at no period, for those between as well, and where the motion becomes
-///   rougher: by fourth differences of q, of Gauss methods by the last coefficients of the velocity's
-///   polynomial, whose squares say what the steps between err by.
+/// - d_k, the local error, is the difference to two half steps. It is taken at some steps, at no period, for
+///   those between as well, and where the motion becomes rougher: by fourth differences of q, of Gauss
+///   methods by the last coefficients of the velocity's polynomial, whose squares say what the steps between
+///   err by. Runs of fewer than 100 steps are looked at in every step where there are no such coefficients,
+///   or where the system takes the time.
 /// - A_k is the tangent map of the motion: exp of ∂(q̇, ṗ)/∂(q, p) at the states of the run, and between them
 ///   where an error turns far in one step. A shift in time stays one, exactly, unless the system changes with
 ///   time, and an error's energy stays where no force acts. So growth is that of the motion, chaos included.
@@ -83,6 +87,7 @@ where
     pub(super) choice: Choice<'a, L, M, N>,
     step: M::Step,
     half: M::Step,
+    twin: Kept<M::Step>,
     guard: Guard<L::Scalar, N>,
     failed: bool,
 }
@@ -188,7 +193,7 @@ where
             largest: 0.0,
             breach: None,
         };
-        let mut guarded = Self { choice, step, half, guard, failed: false };
+        let mut guarded = Self { choice, step, half, twin: None, guard, failed: false };
         guarded.schedule_derivatives();
         guarded
     }
@@ -219,6 +224,7 @@ where
         if let Some(fresh) = self.choice.fresh_steps(self.step_size()) {
             [self.step, self.half] = fresh;
         }
+        self.twin = None;
         GuardedCheckpoint { chosen: self.choice.chosen, guard: self.guard }
     }
 
@@ -237,7 +243,7 @@ where
             .fresh_steps(guard.segment.step_size())
             .ok_or(ToleranceError::NotOffered { method: chosen.method })?;
         let [step, half] = steps;
-        Ok(Self { choice, step, half, guard, failed: false })
+        Ok(Self { choice, step, half, twin: None, guard, failed: false })
     }
 
     /// Every `stride`-th step only, with what the steps between reported: long runs in constant memory.
@@ -330,9 +336,16 @@ where
         self.guard.looks[1] = self.guard.taken + 1;
     }
 
-    /// The next look: at most [`STRIDE`] steps on, at no period.
+    /// The next look: at no period.
     fn schedule_look(&mut self) {
-        let stride = if self.choice.chosen.steps < FEW { 1 } else { STRIDE };
+        let Chosen { steps, method, .. } = self.choice.chosen;
+        let stride = if method.is_gauss() && !self.guard.estimate.is_timed() {
+            (steps / LOOKS).clamp(1, STRIDE)
+        } else if steps < FEW {
+            1
+        } else {
+            STRIDE
+        };
         let next = self.guard.taken + 1 + (stride - 1) / 2 + self.guard.random.draw() % stride;
         self.guard.looks[1] = next.min(self.choice.chosen.steps);
     }
@@ -345,7 +358,7 @@ where
 
     fn schedule_derivatives(&mut self) {
         let angle = self.guard.estimate.speed * self.step_size();
-        let resolved = if angle > 0.0 { ANGLE[1] / angle } else { f64::INFINITY };
+        let resolved = if angle > 0.0 { self.guard.estimate.angle() / angle } else { f64::INFINITY };
         // Seldom where the step is long already; twice the last distance at most, as a period may look like
         // rest.
         let last = (self.guard.taken - self.guard.carried[2]).max(1) as f64;
@@ -377,7 +390,14 @@ where
         let steps = self.guard.taken - taken;
         if must || steps >= self.guard.estimate.twin_stride(step_size, STRIDE) {
             let span = [self.time() - step_size * steps as f64, step_size * steps as f64];
-            self.guard.estimate.carry_by_twin(system, methods, &from, span, &self.guard.scale);
+            self.guard.estimate.carry_by_twin(
+                system,
+                methods,
+                &from,
+                span,
+                &self.guard.scale,
+                &mut self.twin,
+            );
             self.guard.twin = (self.guard.state, self.guard.taken);
         }
     }

@@ -143,8 +143,13 @@ impl<L: Flow<M, N>, M, const N: usize> OfSize<L, M, N> {
         Self { h, memory: Default::default() }
     }
 
-    fn forget(&mut self) {
-        self.memory = Default::default();
+    /// Lets go of the last state; of a linear equation all else belongs to the step size.
+    fn forget(&mut self, is_linear: bool) {
+        if is_linear {
+            self.memory.change_state();
+        } else {
+            self.memory = Default::default();
+        }
     }
 
     #[inline]
@@ -225,14 +230,10 @@ impl<L: Discrete<R, N>, R: SelfAdjoint, const N: usize> MethodStep<L, N> for Com
     }
 
     fn forget(&mut self) {
-        // What a linear equation's step keeps is asked for by the state, or belongs to the step size alone.
-        if L::LINEAR {
-            return;
-        }
         match self {
-            Self::Rule(step) => step.forget(),
-            Self::KahanLi6(step) => step.forget(),
-            Self::KahanLi8(step) => step.forget(),
+            Self::Rule(step) => step.forget(L::LINEAR),
+            Self::KahanLi6(step) => step.forget(L::LINEAR),
+            Self::KahanLi8(step) => step.forget(L::LINEAR),
         }
     }
 

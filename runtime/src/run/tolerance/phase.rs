@@ -14,5 +14,11 @@ pub(super) fn times<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>, x: &State<
 
 /// A norm that does not depend on the units of q and p.
 pub(super) fn norm<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>) -> S {
-    (a.q_by_p.norm() * a.p_by_q.norm()).sqrt() + a.q_by_q.norm().max(a.p_by_p.norm())
+    norm_and_ratio(a)[0]
+}
+
+/// The norm, and how p turns into q beside q into p: √(‖∂ṗ/∂q‖/‖∂q̇/∂p‖).
+pub(super) fn norm_and_ratio<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>) -> [S; 2] {
+    let (to_q, to_p) = (a.q_by_p.norm(), a.p_by_q.norm());
+    [(to_q * to_p).sqrt() + a.q_by_q.norm().max(a.p_by_p.norm()), (to_p / to_q).sqrt()]
 }

@@ -23,27 +23,40 @@ pub(super) struct Scale<S, const N: usize> {
     change: [S; 2],
     /// The largest coordinate.
     pub(super) furthest: S,
+    /// The factor of an error of p beside one of q.
+    weight: f64,
 }
 
 impl<S: Scalar, const N: usize> Scale<S, N> {
     pub(super) fn new(start: &State<S, N>) -> Self {
         let zero = S::zero();
-        Self { start: start.q, reached: [zero, start.p.amax()], change: [zero; 2], furthest: start.q.amax() }
+        let reached = [zero, start.p.amax()];
+        let mut scale =
+            Self { start: start.q, reached, change: [zero; 2], furthest: start.q.amax(), weight: 0.0 };
+        scale.weigh();
+        scale
     }
 
     #[inline]
     pub(super) fn follow(&mut self, from: &State<S, N>, to: &State<S, N>) {
-        self.reached = [self.reached[0].max((to.q - self.start).amax()), self.reached[1].max(to.p.amax())];
-        self.change =
-            [self.change[0].max((to.q - from.q).amax()), self.change[1].max((to.p - from.p).amax())];
+        let (reached, change) = (self.reached, self.change);
+        self.reached = [reached[0].max((to.q - self.start).amax()), reached[1].max(to.p.amax())];
+        self.change = [change[0].max((to.q - from.q).amax()), change[1].max((to.p - from.p).amax())];
         self.furthest = self.furthest.max(to.q.amax());
+        if self.reached != reached || self.change != change {
+            self.weigh();
+        }
+    }
+
+    fn weigh(&mut self) {
+        let ratio = |[q, p]: [S; 2]| if p > S::zero() { (q / p).widen() } else { f64::INFINITY };
+        let weight = ratio(self.reached).min(ratio(self.change));
+        self.weight = if weight.is_finite() { weight } else { 0.0 };
     }
 
     /// The factor of an error of p beside one of q.
     pub(super) fn weight(&self) -> f64 {
-        let ratio = |[q, p]: [S; 2]| if p > S::zero() { (q / p).widen() } else { f64::INFINITY };
-        let weight = ratio(self.reached).min(ratio(self.change));
-        if weight.is_finite() { weight } else { 0.0 }
+        self.weight
     }
 
     /// An error of so much in every coordinate and momentum.

@@ -14,8 +14,11 @@ const SQUARED: [f64; 2] = [8.0, 32.0];
 /// Turns beyond which the error is left where it is: its phase is lost.
 const LOST: f64 = 1e9;
 
-/// Terms of the series of the exponential: to 10⁻³, of an error.
+/// Terms of the series of the exponential at most: to 10⁻³, of an error.
 const TERMS: u32 = 6;
+
+/// The share of an error that the first term left out makes.
+const LEFT_OUT: f64 = 2e-4;
 
 /// The errors after the time `t` between two states: exp(Ω) δ, by W. Magnus's series with J at both ends,
 /// and, where it is given, at the state between. With the ends alone Ω = t (J₀ + J₁)/2.
@@ -40,6 +43,7 @@ pub(super) fn carried<S: Scalar, const N: usize, const K: usize>(
         return errors.map(|error| times(&power, &error));
     }
     let parts = nalgebra::ComplexField::ceil(size).max(1.0) as u32;
+    let terms = terms(size / f64::from(parts));
     let tau = S::one() / S::constant(f64::from(parts));
     errors.map(|error| {
         let mut carried = error;
@@ -48,7 +52,7 @@ pub(super) fn carried<S: Scalar, const N: usize, const K: usize>(
         }
         for _ in 0..parts {
             let mut term = carried;
-            for k in 1..=TERMS {
+            for k in 1..=terms {
                 let share = tau / S::constant(f64::from(k));
                 let next = times(&omega, &term);
                 term = State { q: next.q * share, p: next.p * share };
@@ -58,6 +62,17 @@ pub(super) fn carried<S: Scalar, const N: usize, const K: usize>(
         }
         carried
     })
+}
+
+/// Terms of the series of exp(Ω) that are worth their cost, where Ω has norm `size`.
+fn terms(size: f64) -> u32 {
+    let mut term = size;
+    (1..TERMS)
+        .find(|&k| {
+            term *= size / f64::from(k + 1);
+            term < LEFT_OUT
+        })
+        .unwrap_or(TERMS)
 }
 
 /// Ω to fourth order (A. Iserles, S. P. Nørsett 1999) from J at the ends and between, by Simpson's rule:

@@ -15,6 +15,9 @@ const ANGLE: f64 = 2.0;
 /// Steps of the rule for one of the run at most.
 const MOST: f64 = 8.0;
 
+/// A step of the rule, kept from one carrying to the next with its size.
+pub(super) type Kept<M> = Option<(f64, M)>;
+
 /// Steps of size `h` that one step of the rule may cover where the fastest mode turns at `rate`: `most`, or
 /// fewer.
 pub(super) fn stride(rate: f64, h: f64, most: u64) -> u64 {
@@ -29,6 +32,7 @@ pub(super) fn carried<L, M, const N: usize>(
     error: &State<L::Scalar, N>,
     [elapsed, time, rate]: [f64; 3],
     scale: &Scale<L::Scalar, N>,
+    kept: &mut Kept<M::Step>,
 ) -> Option<(State<L::Scalar, N>, f64)>
 where
     L: ActingForce<N>,
@@ -41,8 +45,12 @@ where
     let share = number(apart / scale.norm(error));
     let beside = State { q: state.q + error.q * share, p: state.p + error.p * share };
     let mut evaluations = 0.0;
+    if kept.as_ref().is_none_or(|(size, _)| *size != tau) {
+        *kept = methods.step(Method::Rule, number(tau)).map(|step| (tau, step));
+    }
+    let (_, step) = kept.as_mut()?;
     let mut end = |mut state: State<L::Scalar, N>| {
-        let mut step = methods.step(Method::Rule, number(tau))?;
+        step.forget();
         for k in 0..parts as u32 {
             let taken = step.advance(system, elapsed + f64::from(k) * tau, &state).ok()?;
             evaluations += taken.evaluations;

@@ -13,7 +13,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::phase::{norm, plus, times};
+use super::phase::{norm_and_ratio, plus, times};
 use super::scale::Scale;
 use crate::numbers::Scalar;
 use crate::step::{PhaseMatrix, State};
@@ -36,6 +36,8 @@ pub(super) struct Variation<S, const N: usize> {
     pub(super) matrix: PhaseMatrix<S, N>,
     /// The fastest rate at which an error changes: a norm of J that does not depend on the units of q and p.
     pub(super) fastest: S,
+    /// p over q in the fastest mode: √(∂ṗ/∂q : ∂q̇/∂p); 0 where that is none.
+    pub(super) impedance: f64,
     /// The state.
     at: State<S, N>,
     /// Whether a force acts here, so that the energy need not be kept.
@@ -80,12 +82,13 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
             let q_by_q = -(inverse * l.d12.transpose());
             let matrix =
                 PhaseMatrix { q_by_q, q_by_p: inverse, p_by_q: by_q + by_v * q_by_q, p_by_p: by_v * inverse };
-            let fastest = norm(&matrix);
+            let [fastest, impedance] = norm_and_ratio(&matrix);
             let is_finite = fastest.is_finite() && rate.iter().all(|x| x.is_finite());
             return is_finite.then_some(Self {
                 rate: State { q: v, p: rate },
                 matrix,
                 fastest,
+                impedance: if impedance.is_finite() { impedance.widen() } else { 0.0 },
                 at: *state,
                 is_forced,
             });
@@ -178,12 +181,6 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
         }
     }
 
-    /// p over q in the fastest mode: √(∂ṗ/∂q : ∂q̇/∂p).
-    pub(super) fn impedance(&self) -> f64 {
-        let ratio = (self.matrix.p_by_q.norm() / self.matrix.q_by_p.norm()).widen();
-        if ratio.is_finite() { nalgebra::ComplexField::sqrt(ratio) } else { 0.0 }
-    }
-
     /// By how much ṗ at this state is another in `later`, the system at another time.
     pub(super) fn change_of_force<L>(&self, later: &L) -> f64
     where
@@ -198,19 +195,20 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
         self.rate.q.dot(&error.p) - self.rate.p.dot(&error.q)
     }
 
-    /// `error` with so much `energy`, by the least change.
-    pub(super) fn with_energy(&self, error: &State<S, N>, energy: S, scale: &Scale<S, N>) -> State<S, N> {
-        plus(error, &self.of_energy(energy - self.energy_of(error), scale), S::one())
+    /// `error` with so much `energy`, by the least change: along the error of unit energy.
+    pub(super) fn with_energy(&self, error: &State<S, N>, energy: S, unit: &State<S, N>) -> State<S, N> {
+        plus(error, unit, energy - self.energy_of(error))
     }
 
-    /// The least error with so much energy: along the gradient of H, with q and p weighed as in the fastest
-    /// mode, so that it is one of the amplitude there and not of the phase; none at rest.
-    pub(super) fn of_energy(&self, energy: S, scale: &Scale<S, N>) -> State<S, N> {
+    /// The least error of unit energy: along the gradient of H, with q and p weighed as in the fastest mode,
+    /// so that it is one of the amplitude there and not of the phase; none at rest.
+    pub(super) fn of_unit_energy(&self, scale: &Scale<S, N>) -> State<S, N> {
         // A mode as slow as the motion, or none, has the weight of the norm.
-        let w = S::constant((1.0 / self.impedance()).min(scale.weight()));
+        let w = S::constant((1.0 / self.impedance).min(scale.weight()));
         let direction = State { q: -self.rate.p * (w * w), p: self.rate.q };
         let slope = self.energy_of(&direction);
-        let share = if slope > S::zero() { energy / slope } else { S::zero() };
+        let share = S::one() / slope;
+        let share = if slope > S::zero() && share.is_finite() { share } else { S::zero() };
         State { q: direction.q * share, p: direction.p * share }
     }
 }

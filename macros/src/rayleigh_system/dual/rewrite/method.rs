@@ -275,12 +275,27 @@ pub fn numbers(function: &ImplItemFn) -> HashSet<Ident> {
 
 struct Numbers(HashSet<Ident>);
 
+impl Numbers {
+    /// `let x = q[0];` and `let (x, y) = (q[0], q[1]);`
+    fn bind(&mut self, pattern: &Pat, value: &Expr) {
+        match (pattern, without_parentheses(value)) {
+            (Pat::Ident(name), value) if is_number(value, &self.0) => {
+                self.0.insert(name.ident.clone());
+            }
+            (Pat::Tuple(names), Expr::Tuple(values)) if names.elems.len() == values.elems.len() => {
+                for (name, value) in names.elems.iter().zip(&values.elems) {
+                    self.bind(name, value);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
 impl<'ast> Visit<'ast> for Numbers {
     fn visit_local(&mut self, local: &'ast Local) {
-        if let (Pat::Ident(name), Some(init)) = (&local.pat, &local.init)
-            && is_number(&init.expr, &self.0)
-        {
-            self.0.insert(name.ident.clone());
+        if let Some(init) = &local.init {
+            self.bind(&local.pat, &init.expr);
         }
         visit::visit_local(self, local);
     }
