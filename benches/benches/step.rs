@@ -22,7 +22,7 @@ fn main() {
     }
     times(&scenes);
     println!();
-    starts(&scenes);
+    starts(scenes.iter().chain(&candidates::others()));
     println!();
     counts(&scenes);
     println!();
@@ -74,7 +74,7 @@ fn times(scenes: &[Scene]) {
 }
 
 /// What a run verifies before its first step, beside a thousand steps.
-fn starts(scenes: &[Scene]) {
+fn starts<'s>(scenes: impl Iterator<Item = &'s Scene>) {
     println!("| scene | n | engine | start, ns | 1000 steps, ns | start / 1000 steps, % |");
     println!("|---|--:|---|--:|--:|--:|");
     for scene in scenes {

@@ -7,8 +7,8 @@ use dalembert::nalgebra::SVector;
 use dalembert::step::Flow;
 use dalembert::{Discrete, Discretise, Midpoint, State};
 use dalembert_scenes::{
-    Arm, DoublePendulum, FputChain8, FputChain32, PendulumChain16, Ring, SpringChain8, SpringChain16,
-    SpringChain32, num_dual,
+    Arm, DoublePendulum, EccentricKepler, FputChain8, FputChain32, HenonHeiles, Kepler, Oscillator,
+    PendulumChain16, Ring, SpringChain8, SpringChain16, SpringChain32, num_dual,
 };
 
 use crate::by_hand::{self, ByHand};
@@ -196,7 +196,23 @@ struct Start<const N: usize> {
     h: f64,
 }
 
-/// Every scene.
+/// Scenes that nobody has stepped by hand here.
+pub fn others() -> Vec<Scene> {
+    fn scene<L, const N: usize>(name: &'static str, system: L, q: [f64; N], v: [f64; N], h: f64) -> Scene
+    where
+        L: Discrete<Midpoint, N, Scalar = f64> + 'static,
+    {
+        Scene::new(name, N).with(Way::Generated, system, Start { q, v, h })
+    }
+    vec![
+        scene("oscillator", Oscillator { m: 1.0, k: 4.0, r: 0.1 }, [1.0], [0.0], 0.05),
+        scene("Hénon–Heiles", HenonHeiles {}, [0.3, 0.1], [0.2, -0.1], 0.1),
+        scene("Kepler", Kepler { k: 1e-3 }, [1.0, 0.0], [0.0, 1.1], 0.05),
+        scene("Kepler in scaled time", EccentricKepler { k: 1e-3 }, [1.0, 0.0], [0.0, 0.6], 0.05),
+    ]
+}
+
+/// Every scene that is stepped by hand as well.
 pub fn scenes() -> Vec<Scene> {
     vec![ring(), double_pendulum(), fput_chain(), spring_chain(), pendulum_chain(), arm()]
 }
