@@ -13,8 +13,8 @@
 //! rounded with their products, `portable` for the elementary functions of the runtime, `renamed` for
 //! programs under the names of generated code, `one_word` for one such name, or `lanes`, `midpoint_lanes` and
 //! `gauss_lanes`: several members at once, from the seed 1000000 on every other program with fused sums.
-//! `written` may be followed by one of the first five. `show <seed>` prints a program, with an engine under
-//! its names, `shrink <seed>` the smallest part of it that fails.
+//! `written` may be followed by one of the first five, `midpoint_lanes` or `gauss_lanes`. `show <seed>`
+//! prints a program, with an engine under its names, `shrink <seed>` the smallest part of it that fails.
 
 mod batch;
 mod beside;

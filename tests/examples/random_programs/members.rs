@@ -40,13 +40,22 @@ impl Way {
         }
     }
 
-    /// What the harness calls.
-    fn function(self) -> &'static str {
-        match self {
+    /// The call of the harness with the system `s` at `points`, each by a view of its input and time.
+    pub fn call(self, index: usize, view: Option<&str>) -> String {
+        let function = match self {
             Self::Explicit => "lanes",
             Self::Gauss => "gauss_lanes",
             Self::Midpoint => "midpoint_lanes",
-        }
+        };
+        let systems = view.map_or_else(
+            || "let systems = points.map(|_| &s);".to_owned(),
+            |view| {
+                format!("let views = points.map(|(_, _, u, t)| s.{view});\nlet systems = views.each_ref();")
+            },
+        );
+        format!(
+            "{systems}\ncrate::{function}({index}, systems, points.map(|(q, v, ..)| (q.into(), v.into())));\n"
+        )
     }
 }
 
@@ -119,11 +128,15 @@ fn is_fused(program: &Program) -> bool {
 /// The module of a program, whose members stand at its points, each with the input and the time there.
 pub fn module(program: &Program, index: usize, way: Way) -> String {
     let fused = if is_fused(program) { ", multiply_add = fused" } else { "" };
-    let (options, function) = (format!("{}{fused}", way.options()), way.function());
+    let options = format!("{}{fused}", way.options());
     let (n, m) = (program.n, program.inputs);
     let scalar = if program.single { "f32" } else { "f64" };
     let points: Vec<String> =
         points(program).iter().map(|Point { q, v, u, t }| format!("({q:?}, {v:?}, {u:?}, {t:?})")).collect();
+    let points = format!(
+        "let points: [([{scalar}; {n}], [{scalar}; {n}], [{scalar}; {m}], {scalar}); {POINTS}] = [{}];\n",
+        points.join(", ")
+    );
     let is_driven = m > 0 && program.force.is_some();
     let view = match (is_driven, timed(program, way).contains(&true)) {
         (true, true) => Some("driven(u, t)"),
@@ -131,31 +144,25 @@ pub fn module(program: &Program, index: usize, way: Way) -> String {
         (false, true) => Some("at_time(t)"),
         (false, false) => None,
     };
-    let systems = view.map_or_else(
-        || "let systems = points.map(|_| &s);".to_owned(),
-        |view| format!("let views = points.map(|(_, _, u, t)| s.{view});\nlet systems = views.each_ref();"),
-    );
     format!(
         "mod p{index} {{\n{}#[dalembert::rayleigh_system({options})]\n{}\
-         pub fn run() {{\nlet s = system();\n\
-         let points: [([{scalar}; {n}], [{scalar}; {n}], [{scalar}; {m}], {scalar}); {POINTS}] = [{}];\n{systems}\n\
-         crate::{function}({index}, systems, points.map(|(q, v, ..)| (q.into(), v.into())));\n}}\n}}\n",
+         pub fn run() {{\nlet s = system();\n{points}{}}}\n}}\n",
         print::surroundings(program),
         block(program, way),
-        points.join(", ")
+        way.call(index, view)
     )
 }
 
 /// The trial of what lanes computed: of each, whether it is what its member does alone, and whether it was
 /// moved.
-pub fn judged(program: &Program, computed: Option<&Computed>) -> Trial {
+pub fn judged(seed: u64, computed: Option<&Computed>) -> Trial {
     let Some(lanes) = computed.and_then(|computed| computed.lanes.as_ref()) else {
         // The potential at (q, q) may panic where the program does not.
         return Trial::Discarded;
     };
     let acts = |told: f64| told == 2.0;
     match lanes.iter().position(|told| *told == 0.0) {
-        Some(lane) => Trial::Failed(format!("lanes: lane {lane} of {} is another", program.seed)),
+        Some(lane) => Trial::Failed(format!("lanes: lane {lane} of {seed} is another")),
         None => Trial::Agrees {
             compared: lanes.iter().filter(|told| acts(**told)).count(),
             near_branch: 0,

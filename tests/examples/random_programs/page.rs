@@ -9,7 +9,7 @@ use super::tally::{Tally, general};
 use super::written;
 
 /// The ways that programs are tried, as files of runs begin, and as the page says it.
-const WAYS: [(&str, &str); 16] = [
+const WAYS: [(&str, &str); 18] = [
     ("graph-", "lowered, the graph evaluated"),
     ("compiled-expanded-", "compiled by rustc, `derivatives = expanded`"),
     ("compiled-auto-", "compiled by rustc, `derivatives = auto`"),
@@ -32,6 +32,14 @@ const WAYS: [(&str, &str); 16] = [
     ("written-num_dual-", "as people write them, `derivatives = num_dual`"),
     ("written-fused-", "as people write them, `multiply_add = fused`"),
     ("written-portable-", "as people write them, elementary functions of the runtime (`libm`)"),
+    (
+        "written-gauss_lanes-",
+        "as people write them, eight members by Gauss rules in lanes, each beside its own run",
+    ),
+    (
+        "written-midpoint_lanes-",
+        "as people write them, eight members by the midpoint rule in lanes, each beside its own run",
+    ),
 ];
 
 /// How files of runs begin whose programs are counted in a section of their own.

@@ -22,6 +22,7 @@ use std::fmt::Write as _;
 
 use super::batch::Source;
 use super::engine::options;
+use super::members::Way;
 use super::random::Random;
 use functions::Seen;
 use manner::Manner;
@@ -47,24 +48,42 @@ pub struct Written {
 impl Written {
     /// The source under the attribute.
     pub fn annotated(&self, engine: &str) -> String {
-        self.text.replace(ATTRIBUTE, &format!("#[dalembert::rayleigh_system({})]", options(engine)))
+        let options = Way::named(engine).map_or_else(|| options(engine), |way| way.options().to_owned());
+        self.text.replace(ATTRIBUTE, &format!("#[dalembert::rayleigh_system({options})]"))
     }
 
     fn plain(&self) -> String {
         self.text.replace(ATTRIBUTE, "")
     }
 
-    /// The points, as Rust: q, v, u and t, numbers that an f32 holds.
+    /// The points: q, v, u and t, numbers that an f32 holds.
     fn points(&self) -> String {
         let mut random = Random::new(self.seed ^ 0x5eed_0f90_1275);
         let mut entries = |n: usize| -> Vec<f64> {
             (0..n).map(|_| f64::from((random.unit() * 2.4 - 0.9) as f32)).collect()
         };
-        let n = self.n;
+        let (n, scalar) = (self.n, self.scalar());
         let points: Vec<String> = (0..POINTS)
             .map(|_| format!("({:?}, {:?}, {:?}, {:?})", entries(n), entries(n), entries(1), entries(1)[0]))
             .collect();
-        format!("[{}]", points.join(", "))
+        format!(
+            "let points: [([{scalar}; {n}], [{scalar}; {n}], [{scalar}; 1], {scalar}); {POINTS}] = [{}];\n",
+            points.join(", ")
+        )
+    }
+
+    fn scalar(&self) -> &'static str {
+        if self.single { "f32" } else { "f64" }
+    }
+
+    /// The view of an input and a time, where the system takes them.
+    fn view(&self) -> Option<&'static str> {
+        match (self.seen.input, self.seen.timed.contains(&true)) {
+            (true, true) => Some("driven(u, t)"),
+            (true, false) => Some("driven(u)"),
+            (false, true) => Some("at_time(t)"),
+            (false, false) => None,
+        }
     }
 
     /// L, R and f of `system` at (q, v), as a vector of f64.
@@ -81,14 +100,13 @@ impl Written {
 
     /// The function that calls all of it.
     fn calls(&self, index: usize, engine: &str) -> String {
-        let (n, scalar) = (self.n, if self.single { "f32" } else { "f64" });
+        let n = self.n;
         // The runtime's elementary functions are not those of std.
         let own = if engine == "portable" { "annotated" } else { "plain" };
         let of_differences = if self.single { "wide" } else { "plain" };
         let mut text = format!(
             "pub fn run() {{\nlet (s, p, w) = (annotated::system(), {own}::system(), {of_differences}::system());\n\
-             let points: [([{scalar}; {n}], [{scalar}; {n}], [{scalar}; 1], {scalar}); {POINTS}] = {};\n\
-             for (k, (q, v, u, t)) in points.into_iter().enumerate() {{\n\
+             {}for (k, (q, v, u, t)) in points.into_iter().enumerate() {{\n\
              let x: Vec<f64> = q.iter().chain(&v).map(|x| *x as f64).collect();\n",
             self.points()
         );
@@ -97,13 +115,9 @@ impl Written {
             writeln!(text, "crate::{told}({index}, k, || [{}].concat());", values.join(", "))
                 .expect("a string takes all");
         }
-        let view = match (self.seen.input, self.seen.timed.contains(&true)) {
-            (true, true) => "let s = s.driven(u, t);\n",
-            (true, false) => "let s = s.driven(u);\n",
-            (false, true) => "let s = s.at_time(t);\n",
-            (false, false) => "",
-        };
-        text += view;
+        if let Some(view) = self.view() {
+            writeln!(text, "let s = s.{view};").expect("a string takes all");
+        }
         text += "let (q, v) = (q.into(), v.into());\n";
         let wide = if self.single { "let (u, t) = (u.map(f64::from), f64::from(t));\n" } else { "" };
         text += wide;
@@ -138,6 +152,14 @@ impl Source for Written {
     }
 
     fn with_macro(&self, index: usize, engine: &str) -> String {
+        if let Some(way) = Way::named(engine) {
+            return format!(
+                "mod p{index} {{\npub mod annotated {{\n{}}}\npub fn run() {{\nlet s = annotated::system();\n{}{}}}\n}}\n",
+                self.annotated(engine),
+                self.points(),
+                way.call(index, self.view())
+            );
+        }
         let wide = if self.single {
             format!("pub mod wide {{\n{}}}\n", self.plain().replace("f32", "f64"))
         } else {

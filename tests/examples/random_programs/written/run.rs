@@ -2,6 +2,7 @@
 
 use super::super::batch::Workshop;
 use super::super::engine::features;
+use super::super::members::{self, Way};
 use super::super::run::{folder, keep, summary, workspace};
 use super::super::tally::Tally;
 use super::super::trial::Trial;
@@ -27,6 +28,9 @@ pub fn compiled(count: u64, seed: u64, engine: &str) -> Result<usize, String> {
                     Trial::Discarded
                 }
                 Some(error) => judgement::told(error),
+                None if Way::named(engine).is_some() => {
+                    members::judged(program.seed, outcome.computed.get(&(index, 0)))
+                }
                 None => judgement::judged(program, |point| outcome.computed.get(&(index, point))),
             };
             if let Trial::Failed(words) = &trial {
