@@ -76,9 +76,9 @@ const STROKE: f64 = 0.05;
 /// - Where the system changes with time, the force is asked for between the nodes of a step as well, at the
 ///   state last looked at, so that a pulse is looked at.
 ///
-/// The run goes on after a [`Breach`], with the same step size. The guard's cost is in the page
-/// `docs/error-asked-for.md`, in evaluations of the forces; runs of fewer than 100 steps are looked at more
-/// closely, at up to three times their cost.
+/// The run goes on after a [`Breach`], with the same step size. By the clock the guard costs some three times
+/// a run of fewer than 100 steps, and of longer ones 0.1 to 4 times, by what a step costs beside the motion's
+/// derivative: the page `docs/error-asked-for.md`. [`Choice::unguarded`] is the run without it.
 pub struct GuardedTrajectory<'a, L, M, const N: usize>
 where
     L: ActingForce<N> + 'a,
