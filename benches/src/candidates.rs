@@ -198,17 +198,14 @@ struct Start<const N: usize> {
 
 /// Scenes that nobody has stepped by hand here.
 pub fn others() -> Vec<Scene> {
-    fn scene<L, const N: usize>(name: &'static str, system: L, q: [f64; N], v: [f64; N], h: f64) -> Scene
-    where
-        L: Discrete<Midpoint, N, Scalar = f64> + 'static,
-    {
-        Scene::new(name, N).with(Way::Generated, system, Start { q, v, h })
-    }
+    let (oscillator, k) = (Oscillator { m: 1.0, k: 4.0, r: 0.1 }, 1e-3);
+    let beside_the_well = Start { q: [0.3, 0.1], v: [0.2, -0.1], h: 0.1 };
+    let [wide, narrow] = [1.1, 0.6].map(|speed| Start { q: [1.0, 0.0], v: [0.0, speed], h: 0.05 });
     vec![
-        scene("oscillator", Oscillator { m: 1.0, k: 4.0, r: 0.1 }, [1.0], [0.0], 0.05),
-        scene("Hénon–Heiles", HenonHeiles {}, [0.3, 0.1], [0.2, -0.1], 0.1),
-        scene("Kepler", Kepler { k: 1e-3 }, [1.0, 0.0], [0.0, 1.1], 0.05),
-        scene("Kepler in scaled time", EccentricKepler { k: 1e-3 }, [1.0, 0.0], [0.0, 0.6], 0.05),
+        Scene::new("oscillator", 1).with(Way::Generated, oscillator, Start { q: [1.0], v: [0.0], h: 0.05 }),
+        Scene::new("Hénon–Heiles", 2).with(Way::Generated, HenonHeiles {}, beside_the_well),
+        Scene::new("Kepler", 2).with(Way::Generated, Kepler { k }, wide),
+        Scene::new("Kepler in scaled time", 2).with(Way::Generated, EccentricKepler { k }, narrow),
     ]
 }
 

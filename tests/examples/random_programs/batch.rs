@@ -253,7 +253,7 @@ fn module(program: &Program, index: usize, engine: &str) -> String {
     }
     writeln!(text, "crate::plain({index}, k, || {{ {plain} plain }});").expect("a string takes all");
     text += "let (q, v) = (q.into(), v.into());\n";
-    if let Some(view) = program.view("u", "t") {
+    if let Some(view) = program.view() {
         writeln!(text, "let s = s.{view};").expect("a string takes all");
     }
     writeln!(text, "crate::lagrangian({index}, k, &s, &q, &v);").expect("a string takes all");

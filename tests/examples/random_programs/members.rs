@@ -6,7 +6,7 @@ use super::batch::Computed;
 use super::generate::VIEWS_FROM;
 use super::point::{POINTS, Point, points};
 use super::print;
-use super::syntax::Program;
+use super::syntax::{Program, view};
 use super::trial::Trial;
 
 /// What a program is in lanes.
@@ -138,12 +138,7 @@ pub fn module(program: &Program, index: usize, way: Way) -> String {
         points.join(", ")
     );
     let is_driven = m > 0 && program.force.is_some();
-    let view = match (is_driven, timed(program, way).contains(&true)) {
-        (true, true) => Some("driven(u, t)"),
-        (true, false) => Some("driven(u)"),
-        (false, true) => Some("at_time(t)"),
-        (false, false) => None,
-    };
+    let view = view(is_driven, timed(program, way).contains(&true));
     format!(
         "mod p{index} {{\n{}#[dalembert::rayleigh_system({options})]\n{}\
          pub fn run() {{\nlet s = system();\n{points}{}}}\n}}\n",

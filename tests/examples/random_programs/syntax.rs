@@ -334,13 +334,17 @@ pub struct Program {
 
 impl Program {
     /// The expression that holds the input and the time, where there are any.
-    pub fn view(&self, u: &str, t: &str) -> Option<String> {
-        let is_timed = self.timed.contains(&true);
-        match (self.inputs > 0, is_timed) {
-            (true, true) => Some(format!("driven({u}, {t})")),
-            (true, false) => Some(format!("driven({u})")),
-            (false, true) => Some(format!("at_time({t})")),
-            (false, false) => None,
-        }
+    pub fn view(&self) -> Option<&'static str> {
+        view(self.inputs > 0, self.timed.contains(&true))
+    }
+}
+
+/// The call that makes the view of a system with the input `u` and the time `t`, where it takes them.
+pub fn view(is_driven: bool, is_timed: bool) -> Option<&'static str> {
+    match (is_driven, is_timed) {
+        (true, true) => Some("driven(u, t)"),
+        (true, false) => Some("driven(u)"),
+        (false, true) => Some("at_time(t)"),
+        (false, false) => None,
     }
 }

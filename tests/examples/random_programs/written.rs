@@ -24,6 +24,7 @@ use super::batch::Source;
 use super::engine::options;
 use super::members::Way;
 use super::random::Random;
+use super::syntax::view;
 use functions::Seen;
 use manner::Manner;
 pub use source::program;
@@ -78,12 +79,7 @@ impl Written {
 
     /// The view of an input and a time, where the system takes them.
     fn view(&self) -> Option<&'static str> {
-        match (self.seen.input, self.seen.timed.contains(&true)) {
-            (true, true) => Some("driven(u, t)"),
-            (true, false) => Some("driven(u)"),
-            (false, true) => Some("at_time(t)"),
-            (false, false) => None,
-        }
+        view(self.seen.input, self.seen.timed.contains(&true))
     }
 
     /// L, R and f of `system` at (q, v), as a vector of f64.

@@ -221,8 +221,8 @@ method counts the derivatives and the matrix of all its stages.
 - Where a splitting turns a fast mode by radians in each step, the few local errors that are looked at differ much: the guard's estimate of a
   stiff pair's error can be three times too small (collection 5).
 - Near the smallest errors that can be had rounding is taken for random; where forces are stiff a method's rounding can have one sign.
-- Local errors of longer runs are taken at one step in 40, or twelve times. Between them those of a Gauss method are told by what it leaves unresolved, of
-  other methods they are taken to be like their neighbours.
+- Local errors of longer runs are taken at one step in 40, or twelve times. Between them those of a Gauss method are told by what it
+  leaves unresolved, of other methods they are taken to be like their neighbours.
 - In the counts a derivative of the motion is two evaluations; the algebra of the matrices that carry an error is not counted, for two
   coordinates about as much as a step of a splitting. What a guard costs is told by the clock.
 - A breach can come late: where the error arises within one step between two looks (a kink that the energy does not show, a pulse of a step's

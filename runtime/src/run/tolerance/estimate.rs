@@ -252,7 +252,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
             self.drive = self.driven(system, &variation, since.ahead);
         }
         let rounding = rounding(&variation, state, scale, elapsed, since);
-        self.rounding = root_of_squares([self.rounding, scale.norm(&rounding)]);
+        self.rounding = nalgebra::ComplexField::hypot(self.rounding, scale.norm(&rounding));
         self.err(&rounding, 2.0);
         // Until the next look all that has passed may have grown.
         let (local, times) = &since.passed;
@@ -382,12 +382,9 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
     /// The error expected of the state last looked at.
     pub(super) fn size(&self, scale: &Scale<S, N>) -> f64 {
         let [a, b] = &self.unsure;
-        root_of_squares([&self.error, a, b].map(|error| scale.largest(&self.over_a_turn(error, scale))))
+        let sizes = [&self.error, a, b].map(|error| scale.largest(&self.over_a_turn(error, scale)));
+        nalgebra::ComplexField::sqrt(sizes.map(|size| size * size).iter().sum::<f64>())
     }
-}
-
-fn root_of_squares<const K: usize>(sizes: [f64; K]) -> f64 {
-    nalgebra::ComplexField::sqrt(sizes.map(|size| size * size).iter().sum::<f64>())
 }
 
 /// The rounding error of the state over some steps: of q and p by their own rounding, and of p by that of the

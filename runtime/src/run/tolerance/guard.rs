@@ -20,9 +20,10 @@ use crate::system::ActingForce;
 /// Steps between two looks at most.
 const STRIDE: u64 = 40;
 
-/// Runs of fewer steps are looked at in every step, unless the steps between show what they err by: then so
-/// often, where that is more than once in [`STRIDE`].
+/// Runs of fewer steps are looked at in every step, unless the steps between show what they err by.
 const FEW: u64 = 100;
+
+/// Looks at a run whose steps show that, where these are more than one in [`STRIDE`].
 const LOOKS: u64 = 12;
 
 /// The share of the run's cost that the motion's derivatives along it may take.
