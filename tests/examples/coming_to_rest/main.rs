@@ -31,7 +31,7 @@ fn main() -> Result<ExitCode> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).parent().context("the tests stand in a workspace")?;
-    let folder = own.join("target/coming_to_rest/counts");
+    let folder = own.join("tests/examples/coming_to_rest/counts");
     let (draw, runtime) = match words[..] {
         ["show", seed] => {
             let systems = System::all_of(seed.parse()?, MEMBERS);
