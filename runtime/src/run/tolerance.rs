@@ -6,6 +6,7 @@ mod drive;
 mod estimate;
 mod grid;
 mod guard;
+mod hardest;
 mod methods;
 mod phase;
 mod random;
@@ -151,6 +152,11 @@ pub enum ToleranceError {
         /// The step size given.
         step_size: f64,
     },
+    /// The most evaluations allowed are no number above 0.
+    MostEvaluations {
+        /// The number given.
+        most: f64,
+    },
     /// A time at which the system is said to break is not finite.
     Break {
         /// The time given.
@@ -164,6 +170,16 @@ pub enum ToleranceError {
         steps: f64,
         /// The limit.
         most: u64,
+        /// The fastest rate at which the motion changes at the start.
+        rate: f64,
+    },
+    /// The error takes more evaluations of the forces than the limit
+    /// ([`TimedRequest::at_most_evaluations`]).
+    TooManyEvaluations {
+        /// Of the methods that reach the error the one of least cost.
+        needed: Trial,
+        /// The limit.
+        most: f64,
         /// The fastest rate at which the motion changes at the start.
         rate: f64,
     },
@@ -205,7 +221,7 @@ where
     }
     bounds.check()?;
     verify_start(system, 0.0, start, true).map_err(ToleranceError::Step)?;
-    search::choice((system, methods), start, [time, tolerance], bounds)
+    search::choice((system, methods), start, [time, tolerance], bounds, None)
 }
 
 /// The local error of a step of this order, from its end and that of two half ones.

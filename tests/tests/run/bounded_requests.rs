@@ -1,6 +1,8 @@
 //! An error asked for, with what the start does not show: drives of any frequency, forces that come and go,
 //! and work that has no end.
 
+use std::f64::consts::TAU;
+
 use dalembert::tolerance::{GuardedTrajectory, ToleranceError};
 use dalembert::{Discretise, State, rayleigh_system};
 use dalembert_tests::draws::Draws;
@@ -153,6 +155,47 @@ fn work_is_bounded_and_the_error_says_by_how_much_it_is_too_much() {
     let steps = request.choice(&start).unwrap().steps();
     assert!(request.at_most(steps).choice(&start).is_ok());
     assert!(matches!(request.at_most(steps / 8).end(&start), Err(ToleranceError::TooManySteps { .. })));
+}
+
+#[rayleigh_system(rule = [trapezoidal, gauss])]
+fn kepler(q: [f64; 2], v: [f64; 2]) -> f64 {
+    0.5 * (v[0] * v[0] + v[1] * v[1]) + 1.0 / (q[0] * q[0] + q[1] * q[1]).sqrt()
+}
+
+#[test]
+fn work_is_bounded_in_evaluations_and_all_runs_of_an_end_count_together() {
+    // From the apocentre: the first run passes its error at the pericentre.
+    let start = State::from_velocity(&Kepler {}, [-1.6, 0.0], [0.0, -0.5]).unwrap();
+    let request = Kepler {}.to_error(1e-8).until(20.0);
+    let reached = request.end(&start).unwrap();
+    let (choice, all) = (request.choice(&start).unwrap(), reached.evaluations);
+    assert_eq!(reached.runs, 2, "{}", reached.choice);
+    let first = choice.trials().find(|trial| trial.method == choice.method()).unwrap().evaluations;
+    assert!(first < 0.5 * all);
+    assert!(request.at_most_evaluations(2.0 * first).choice(&start).is_ok());
+    assert!(request.at_most_evaluations(1.01 * all).end(&start).is_ok());
+    // No second run: the error of the first.
+    assert!(matches!(request.at_most_evaluations(2.0 * first).end(&start), Err(ToleranceError::Breach(_))));
+    let error = request.at_most_evaluations(0.1 * first).choice(&start).unwrap_err();
+    let ToleranceError::TooManyEvaluations { needed, most, .. } = error else { panic!("{error}") };
+    assert!(
+        most == 0.1 * first && needed.evaluations > most && error.to_string().contains("at_most_evaluations")
+    );
+    let error = request.at_most_evaluations(f64::NAN).choice(&start).unwrap_err();
+    assert!(matches!(error, ToleranceError::MostEvaluations { most } if most.is_nan()));
+}
+
+#[test]
+fn a_passage_that_the_start_does_not_show_takes_a_second_run_and_no_third() {
+    for eccentricity in [0.3_f64, 0.4, 0.5, 0.6, 0.7] {
+        let speed = ((1.0 - eccentricity) / (1.0 + eccentricity)).sqrt();
+        let start = State::from_velocity(&Kepler {}, [-1.0 - eccentricity, 0.0], [0.0, -speed]).unwrap();
+        for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
+            let reached = Kepler {}.to_error(tolerance).until(2.0 * TAU).end(&start).unwrap();
+            assert!((reached.state.q - start.q).amax() < tolerance, "{eccentricity} {tolerance:e}");
+            assert!(reached.runs <= 2, "{eccentricity} {tolerance:e}: {}", reached.runs);
+        }
+    }
 }
 
 /// A mass at rest that a force takes hold of smoothly.

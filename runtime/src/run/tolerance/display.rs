@@ -63,15 +63,23 @@ impl fmt::Display for ToleranceError {
             Self::LongestStep { step_size } => {
                 write!(f, "the longest step {step_size} has to be a number above 0")
             }
+            Self::MostEvaluations { most } => {
+                write!(f, "the most evaluations {most} have to be a number above 0")
+            }
             Self::Break { time } => {
                 write!(f, "the system cannot break at the time {time}: give finite times")
             }
-            Self::TooManySteps { needed, steps, most, rate } => write!(
-                f,
-                "the error takes {steps:.1e} steps, and {most:.1e} are allowed: {needed}. At the start the motion \
-                 changes at the rate {rate:.1e}. Allow more by `at_most`, ask for less, or for a shorter time; \
-                 where the rate is that of a pole of the coordinates, take others"
-            ),
+            Self::TooManySteps { needed, steps, most, rate } => {
+                write!(f, "the error takes {steps:.1e} steps, and {most:.1e} are allowed")?;
+                allow_more(f, needed, *rate, "at_most")
+            }
+            Self::TooManyEvaluations { needed, most, rate } => {
+                write!(
+                    f,
+                    "the error takes more than the {most:.1e} evaluations of the forces that are allowed"
+                )?;
+                allow_more(f, needed, *rate, "at_most_evaluations")
+            }
             Self::NothingMoves { looks, apart } => write!(
                 f,
                 "the system starts at rest, and at {looks} times, {apart:.1e} apart, no force moves it: nothing \
@@ -97,6 +105,15 @@ impl fmt::Display for ToleranceError {
             }
         }
     }
+}
+
+/// The cures of a run that takes more than is allowed by this method.
+fn allow_more(f: &mut fmt::Formatter<'_>, needed: &Trial, rate: f64, by: &str) -> fmt::Result {
+    write!(
+        f,
+        ": {needed}. At the start the motion changes at the rate {rate:.1e}. Allow more by `{by}`, ask for less, \
+         or for a shorter time; where the rate is that of a pole of the coordinates, take others"
+    )
 }
 
 impl fmt::Display for Breach {

@@ -2,7 +2,7 @@
 
 use nalgebra::ComplexField;
 
-use super::ToleranceError;
+use super::{ToleranceError, Trial};
 
 /// Times at which a system may break, at most.
 const MOST_BREAKS: usize = 16;
@@ -19,6 +19,8 @@ const APART: f64 = 8.0 * f64::EPSILON;
 pub(super) struct Bounds {
     /// The limit of their number.
     pub(super) most: u64,
+    /// The limit of what they cost, in evaluations of the forces.
+    pub(super) costliest: f64,
     /// The longest step; infinite where any is allowed.
     pub(super) longest: f64,
     pub(super) breaks: Breaks,
@@ -26,20 +28,39 @@ pub(super) struct Bounds {
 
 impl Default for Bounds {
     fn default() -> Self {
-        Self { most: MOST_STEPS, longest: f64::INFINITY, breaks: Breaks::default() }
+        let costliest = f64::INFINITY;
+        Self { most: MOST_STEPS, costliest, longest: f64::INFINITY, breaks: Breaks::default() }
     }
 }
 
 impl Bounds {
     /// Whether they make sense for a run over `time`.
     pub(super) fn check(&self) -> Result<(), ToleranceError> {
-        let Self { longest, breaks, .. } = self;
+        let Self { longest, costliest, breaks, .. } = self;
         if longest.is_nan() || *longest <= 0.0 {
             return Err(ToleranceError::LongestStep { step_size: *longest });
+        }
+        if costliest.is_nan() || *costliest <= 0.0 {
+            return Err(ToleranceError::MostEvaluations { most: *costliest });
         }
         match breaks.times().iter().find(|time| !time.is_finite()) {
             Some(&time) => Err(ToleranceError::Break { time }),
             None => Ok(()),
+        }
+    }
+
+    /// The share of what is allowed that a run of so many steps takes: above 1 it is not.
+    pub(super) fn share(&self, steps: f64, evaluations: f64) -> f64 {
+        (steps / self.most as f64).max(evaluations / self.costliest)
+    }
+
+    /// The error of a run that takes more than is allowed; at its start the motion changes at `rate`.
+    pub(super) fn refusal(&self, needed: Trial, steps: f64, rate: f64) -> ToleranceError {
+        let Self { most, costliest, .. } = *self;
+        if steps > most as f64 {
+            ToleranceError::TooManySteps { needed, steps, most, rate }
+        } else {
+            ToleranceError::TooManyEvaluations { needed, most: costliest, rate }
         }
     }
 

@@ -4,6 +4,7 @@ use nalgebra::SVector;
 
 use super::estimate::{Estimate, Since};
 use super::grid::Segment;
+use super::hardest::Hardest;
 use super::random::Random;
 use super::scale::Scale;
 use super::twin::Kept;
@@ -90,6 +91,8 @@ where
     half: M::Step,
     twin: Kept<M::Step>,
     guard: Guard<L::Scalar, N>,
+    /// The error expected beyond which the run is not gone on with.
+    hopeless: f64,
     failed: bool,
 }
 
@@ -146,6 +149,7 @@ struct Guard<S, const N: usize> {
     /// The step after which the energy was asked for.
     energy: u64,
     random: Random,
+    hardest: Hardest<S, N>,
     /// The largest error expected so far, where it was looked at.
     largest: f64,
     breach: Option<Breach>,
@@ -172,11 +176,12 @@ where
             ahead,
         };
         estimate.carry(system, &start, 0.0, &scale, &none);
+        let segment = chosen.first_segment();
         let guard = Guard {
             estimate,
             state: start,
             taken: 0,
-            segment: chosen.first_segment(),
+            segment,
             is_on,
             scale,
             evaluations: 0.0,
@@ -191,10 +196,12 @@ where
             unresolved: Unresolved::new(),
             energy: 0,
             random: Random::new(0x9e37_79b9_7f4a_7c15),
+            hardest: Hardest::new(start, segment.step_size()),
             largest: 0.0,
             breach: None,
         };
-        let mut guarded = Self { choice, step, half, twin: None, guard, failed: false };
+        let mut guarded =
+            Self { choice, step, half, twin: None, guard, hopeless: f64::INFINITY, failed: false };
         guarded.schedule_derivatives();
         guarded
     }
@@ -244,7 +251,7 @@ where
             .fresh_steps(guard.segment.step_size())
             .ok_or(ToleranceError::NotOffered { method: chosen.method })?;
         let [step, half] = steps;
-        Ok(Self { choice, step, half, twin: None, guard, failed: false })
+        Ok(Self { choice, step, half, twin: None, guard, hopeless: f64::INFINITY, failed: false })
     }
 
     /// Every `stride`-th step only, with what the steps between reported: long runs in constant memory.
@@ -253,6 +260,11 @@ where
     /// on any step is returned at once.
     pub fn sample_every(&mut self, stride: u64) -> Samples<'_, Self, N> {
         Samples::new(self, stride)
+    }
+
+    /// This run, which ends where the error expected comes to as much.
+    pub(super) fn given_up_beyond(self, hopeless: f64) -> Self {
+        Self { hopeless, ..self }
     }
 
     /// The choice of which this is the run.
@@ -296,6 +308,11 @@ where
     /// The largest error expected on the way, where it was looked at.
     pub(super) fn largest(&self) -> f64 {
         self.guard.largest
+    }
+
+    /// The step that erred most of those looked at.
+    pub(super) fn hardest(&self) -> &Hardest<L::Scalar, N> {
+        &self.guard.hardest
     }
 
     /// The last step.
@@ -445,6 +462,7 @@ where
         });
         let steps = (self.guard.taken - self.guard.looks[0]) as f64;
         let Ok(halves) = halves else {
+            self.guard.hardest.add(before, [elapsed, h], f64::INFINITY, [1.0, steps]);
             self.report(f64::INFINITY);
             return;
         };
@@ -463,6 +481,7 @@ where
             None => steps - 1.0,
         };
         self.guard.estimate.add(&local, unseen);
+        self.guard.hardest.add(before, [elapsed, h], size, [1.0 + unseen, steps]);
         self.guard.local = size;
         self.guard.looks[0] = self.guard.taken;
         self.schedule_look();
@@ -512,7 +531,8 @@ where
     type Item = Result<Step<L::Scalar, N>, StepError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        if self.failed || self.guard.taken == self.choice.chosen.steps {
+        let is_over = self.guard.taken == self.choice.chosen.steps;
+        if self.failed || is_over || self.guard.largest > self.hopeless {
             return None;
         }
         if self.guard.taken == self.guard.segment.steps[1] {

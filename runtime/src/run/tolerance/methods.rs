@@ -350,13 +350,13 @@ fn kicked<L: Explicit<N>, const N: usize, const S: usize>(
 
 /// The cost of the derivatives of a stage's forces, in evaluations, and that of its share of a matrix of n
 /// rows, over n².
-const DERIVATIVE: f64 = 2.0;
-const FACTORING: f64 = 1.0 / 60.0;
+const DERIVATIVE: f64 = 5.0;
+const FACTORING: f64 = 1.0 / 32.0;
 
 /// The cost of a sweep of simplified Newton's method, in evaluations, with sweeps of the fixed point that
 /// were in vain, and that of solving for n modes, over n².
-const BY_MODES: f64 = 3.0;
-const SOLVING: f64 = 1.0 / 20.0;
+const BY_MODES: f64 = 4.0;
+const SOLVING: f64 = 1.0 / 15.0;
 
 #[inline]
 fn staged<L: ForcedLagrangian<N>, const N: usize, const S: usize>(

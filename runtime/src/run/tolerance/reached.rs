@@ -3,7 +3,8 @@
 use nalgebra::ComplexField;
 
 use super::grid::{Bounds, segments};
-use super::{Breach, Choice, Chosen, Methods, ToleranceError, Trial, bounded};
+use super::hardest::Hardest;
+use super::{Breach, Choice, Chosen, Methods, ToleranceError, Trial, bounded, search};
 use crate::step::{State, StepError};
 use crate::system::{ActingForce, Lagrangian};
 
@@ -19,6 +20,9 @@ const ACCEPTED: f64 = 0.7;
 
 /// The share of an aim that the next one is at least: errors as large as the motion say little.
 const LEAST: f64 = 1e-5;
+
+/// The error expected, over the tolerance, from which on more of it changes nothing of the next run.
+pub(super) const HOPELESS: f64 = AIM / LEAST;
 
 /// By so much the steps of a method are shortened, where no method is expected to reach a smaller error.
 const SHORTER: [f64; 2] = [1.1, 4.0];
@@ -46,6 +50,7 @@ pub(super) struct Followed<S, const N: usize> {
     pub(super) expected: f64,
     /// The largest error expected on the way.
     pub(super) largest: f64,
+    pub(super) hardest: Hardest<S, N>,
     pub(super) breach: Option<Breach>,
     pub(super) failure: Option<StepError>,
     /// The cost of its steps and its guard.
@@ -90,8 +95,11 @@ where
         }
         runs += 1;
         let share = AIM * tolerance / largest;
-        aim *= share.clamp(LEAST, AIM);
-        choice = match bounded((system, methods), start, [time, aim], bounds) {
+        // The first one was chosen without what it has found.
+        let most = if runs == 2 { aim } else { AIM * aim };
+        aim = most.min(tolerance / run.hardest.growth(run.largest).min(1.0 / LEAST));
+        let passage = Some(run.hardest);
+        choice = match search::choice((system, methods), start, [time, aim], bounds, passage) {
             // The start may show nothing of what comes: the same run would only end as the last one did.
             Ok(next) if !choice.is_no_shorter(&next) => next,
             Ok(_) => choice.shortened(share, aim),
@@ -99,9 +107,19 @@ where
             Err(_) => choice.shortened(share, aim),
         };
         choice.chosen.tolerance = tolerance;
-        if choice.chosen.steps > bounds.most {
-            return Err(error.unwrap_or_else(|| choice.too_many(bounds.most)));
+        let Chosen { steps, rate, .. } = choice.chosen;
+        let (steps, needed) = (steps as f64, choice.chosen.trial());
+        if bounds.share(steps, evaluations + needed.evaluations) > 1.0 {
+            return Err(error.unwrap_or_else(|| bounds.refusal(needed, steps, rate)));
         }
+    }
+}
+
+impl<S, const N: usize> Chosen<S, N> {
+    /// Its method and step size, as they would be tried.
+    fn trial(&self) -> Trial {
+        let Self { method, step_size, steps, expected, evaluations_per_step, .. } = *self;
+        Trial { method, step_size, evaluations: steps as f64 * evaluations_per_step, expected }
     }
 }
 
@@ -114,14 +132,6 @@ where
     fn is_no_shorter(&self, next: &Self) -> bool {
         let (last, next) = (&self.chosen, &next.chosen);
         next.method == last.method && next.step_size * SHORTER[0] > last.step_size
-    }
-
-    /// The error of more steps than are allowed.
-    fn too_many(&self, most: u64) -> ToleranceError {
-        let Chosen { method, step_size, steps, expected, evaluations_per_step, .. } = self.chosen;
-        let steps = steps as f64;
-        let needed = Trial { method, step_size, evaluations: steps * evaluations_per_step, expected };
-        ToleranceError::TooManySteps { needed, steps, most, rate: self.chosen.rate }
     }
 
     /// This choice with h divided by share^(−1/p), p the order; the divisor is kept within [`SHORTER`].

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::grid::{Bounds, Breaks};
-use super::reached::{Followed, Reached, reached};
+use super::reached::{Followed, HOPELESS, Reached, reached};
 use super::{Choice, GuardedTrajectory, Methods, ToleranceError, bounded};
 use crate::step::{State, StepError};
 use crate::system::ActingForce;
@@ -95,6 +95,15 @@ impl<'a, L, M> TimedRequest<'a, L, M> {
         self
     }
 
+    /// At a cost of no more than so many evaluations of the forces, as [`Trial`](super::Trial) counts them:
+    /// there is no limit unless one is said. A run that is expected to cost more is
+    /// [`ToleranceError::TooManyEvaluations`], told before it; of [`end`](Self::end) all runs count together,
+    /// with their guards.
+    pub fn at_most_evaluations(mut self, evaluations: f64) -> Self {
+        self.bounds.costliest = evaluations;
+        self
+    }
+
     /// By steps no longer than `step_size`, each of them looked into.
     ///
     /// Choice and guard look at the system at the nodes of steps, and at the force in the middle of each.
@@ -172,11 +181,11 @@ impl<'a, L, M> TimedRequest<'a, L, M> {
     ///
     /// The first steps do not always show what comes: a run that starts at the apocentre of a long ellipse
     /// passes its error at the pericentre. So as long as a run ends in a breach, or a step of it fails,
-    /// another one starts from the beginning. Its method and step size are chosen for an error that is
-    /// smaller by as much as the guard found the last one too large; where no method is expected to reach
-    /// that, the last one takes shorter steps. What is kept is the error asked for. Most motions need one run
-    /// or two; eight are tried. The page `docs/error-asked-for.md` counts how often none of them keeps it: at
-    /// kinks, as a rule.
+    /// another one starts from the beginning. Its method and step size are chosen where the last one erred
+    /// most as well as at the start, for an error that is smaller by as much as errors have grown on the way;
+    /// where no method is expected to reach that, the last one takes shorter steps. What is kept is the error
+    /// asked for. Most motions need one run or two; eight are tried. The page `docs/error-asked-for.md`
+    /// counts how often none of them keeps it: at kinks, as a rule.
     ///
     /// ```
     /// use dalembert::{Discretise, State, rayleigh_system};
@@ -213,7 +222,8 @@ impl<'a, L, M> TimedRequest<'a, L, M> {
 
     /// As [`end`](Self::end), with the steps of each run that is tried taken by `follow`: to record them, or
     /// to watch for events, anew for each. What it leaves of a run is not taken, as behind an event that ends
-    /// it; the error of a step that fails it hands on.
+    /// it; the error of a step that fails it hands on. A run whose error has come to 3·10⁴ times the
+    /// tolerance ends there.
     ///
     /// ```
     /// use dalembert::{Discretise, State, rayleigh_system};
@@ -246,13 +256,14 @@ impl<'a, L, M> TimedRequest<'a, L, M> {
     {
         let Request { system, methods, tolerance } = self.request;
         reached((system, methods), start, [self.time, tolerance], self.bounds, &mut |choice| {
-            let mut run = choice.trajectory();
+            let mut run = choice.trajectory().given_up_beyond(HOPELESS * tolerance);
             let failure = follow(&mut run).err();
             let (of_steps, of_guard) = run.evaluations();
             Followed {
                 state: *run.state(),
                 expected: run.expected(),
                 largest: run.largest(),
+                hardest: *run.hardest(),
                 breach: run.breach().copied(),
                 failure,
                 evaluations: of_steps + of_guard,

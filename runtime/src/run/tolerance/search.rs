@@ -4,6 +4,7 @@ use nalgebra::ComplexField;
 
 use super::drive::DRIVES;
 use super::grid::{Bounds, segments};
+use super::hardest::Hardest;
 use super::random::Random;
 use super::scale::Scale;
 use super::variation::Variation;
@@ -44,6 +45,8 @@ struct Start<'a, L: Lagrangian<N>, M, const N: usize> {
     fewest: f64,
     /// The fastest rate at which the motion changes.
     fastest: f64,
+    /// A passage that the start does not show: the hardest step of a run that was tried.
+    passage: Option<Hardest<L::Scalar, N>>,
     /// The factor of an error of p beside one of q.
     weight: f64,
     /// How far the motion goes in the time in which it changes: from rest at the origin, all that is known of
@@ -52,13 +55,18 @@ struct Start<'a, L: Lagrangian<N>, M, const N: usize> {
     spent: f64,
 }
 
+/// Steps at most by which a passage is tried.
+const PASSING: u32 = 16;
+
 /// How often a force is looked for where a motion starts at rest.
 const LOOKS: u32 = 256;
 
-/// The local error and the cost of one step of a method.
+/// The local error and the cost of one step of a method: in the mean, as far as the start shows it and as far
+/// as a passage does.
 #[derive(Clone, Copy)]
 struct Measured {
     local: f64,
+    in_passage: f64,
     evaluations: f64,
 }
 
@@ -69,6 +77,12 @@ struct Candidate {
     steps: f64,
     measured: Measured,
     expected: f64,
+}
+
+impl Measured {
+    fn mean(&self) -> f64 {
+        self.local + self.in_passage
+    }
 }
 
 impl Candidate {
@@ -82,6 +96,7 @@ pub(super) fn choice<'a, L, M, const N: usize>(
     state: &State<L::Scalar, N>,
     [time, tolerance]: [f64; 2],
     bounds: Bounds,
+    passage: Option<Hardest<L::Scalar, N>>,
 ) -> Result<Choice<'a, L, M, N>, ToleranceError>
 where
     L: ActingForce<N>,
@@ -90,6 +105,9 @@ where
     state.require_finite().map_err(ToleranceError::Step)?;
     let mut start =
         Start::new((system, methods), *state, [time, tolerance], bounds).map_err(ToleranceError::Step)?;
+    if let Some(passage) = passage {
+        start.pass(passage);
+    }
     start.look_for_motion()?;
     let mut trials = [None; Method::ALL.len()];
     let (mut best, mut too_many) = (None::<Candidate>, None::<Candidate>);
@@ -123,8 +141,9 @@ where
                     *trial = Some(start.trial(&candidate));
                 }
                 let reaches = candidate.expected <= tolerance;
-                if reaches && candidate.steps > bounds.most as f64 {
-                    if too_many.is_none_or(|least| candidate.steps < least.steps) {
+                let share = start.share(&candidate);
+                if reaches && share > 1.0 {
+                    if too_many.is_none_or(|least| share < start.share(&least)) {
                         too_many = Some(candidate);
                     }
                 } else if reaches && best.is_none_or(|best| candidate.cost() < best.cost()) {
@@ -136,7 +155,7 @@ where
     }
     let Some(mut best) = best else {
         if let Some(least) = too_many {
-            return Err(start.too_many(&least));
+            return Err(start.too_many(&least, least.steps));
         }
         let shown = trials.iter().flatten();
         let closest = shown.min_by(|a, b| a.expected.total_cmp(&b.expected)).copied();
@@ -151,8 +170,8 @@ where
     }
     let step_size = time / best.steps;
     let steps = segments(time, step_size, &bounds.breaks).last().map_or(0, |segment| segment.steps[1]);
-    if steps > bounds.most {
-        return Err(start.too_many(&best));
+    if bounds.share(steps as f64, best.cost()) > 1.0 {
+        return Err(start.too_many(&best, steps as f64));
     }
     let chosen = Chosen {
         start: *state,
@@ -165,7 +184,7 @@ where
         tolerance,
         aim: tolerance,
         expected: best.expected,
-        local: best.measured.local,
+        local: best.measured.mean(),
         evaluations_per_step: best.measured.evaluations,
         roundings: best.method.roundings(),
         rate: start.fastest,
@@ -196,6 +215,7 @@ where
             bounds,
             fewest: ComplexField::ceil(time / bounds.longest * (1.0 - 1e-12)).max(1.0),
             fastest: 1.0 / time,
+            passage: None,
             weight: 0.0,
             reach: 0.0,
             spent: 4.0,
@@ -253,6 +273,17 @@ where
         Ok(())
     }
 
+    /// Tries steps in this passage as well, where the motion may be faster.
+    fn pass(&mut self, passage: Hardest<L::Scalar, N>) {
+        let Hardest { state, elapsed, .. } = passage;
+        self.spent += 2.0;
+        let variation = self.system.later(L::Scalar::constant(elapsed), |system| {
+            Variation::at(system, &state, &state.velocity(system).ok()?)
+        });
+        self.fastest = variation.map_or(0.0, |variation| variation.fastest.widen()).max(self.fastest);
+        self.passage = Some(passage);
+    }
+
     /// |v| τ, and from rest |M⁻¹ ṗ| τ²/2, with τ the time in which the motion changes.
     fn reach_of(&self, variation: &Variation<L::Scalar, N>) -> f64 {
         let tau = 1.0 / self.fastest;
@@ -276,13 +307,12 @@ where
         error.q.amax().widen().max(error.p.amax().widen() * self.weight)
     }
 
-    fn too_many(&self, least: &Candidate) -> ToleranceError {
-        ToleranceError::TooManySteps {
-            needed: self.trial(least),
-            steps: least.steps,
-            most: self.bounds.most,
-            rate: self.fastest,
-        }
+    fn share(&self, candidate: &Candidate) -> f64 {
+        self.bounds.share(candidate.steps, candidate.cost())
+    }
+
+    fn too_many(&self, least: &Candidate, steps: f64) -> ToleranceError {
+        self.bounds.refusal(self.trial(least), steps, self.fastest)
     }
 
     fn trial(&self, candidate: &Candidate) -> Trial {
@@ -313,7 +343,27 @@ where
         let second = halves.advance(system, elapsed + half.widen(), &first.step.state).map_err(Some)?;
         self.spent += whole.evaluations + first.evaluations + second.evaluations;
         let local = self.norm(&local_error(method.order(), &whole.step.state, &second.step.state));
-        Ok(Measured { local, evaluations: whole.evaluations })
+        Ok(Measured { local, in_passage: 0.0, evaluations: whole.evaluations })
+    }
+
+    /// The largest local error in the passage, times the share of the steps that err so.
+    fn measure_passage(
+        &mut self,
+        method: Method,
+        steps: f64,
+        passage: &Hardest<L::Scalar, N>,
+    ) -> Result<f64, Option<StepError>> {
+        let Hardest { mut state, mut elapsed, span, .. } = *passage;
+        let h = self.time / steps;
+        let mut largest = 0.0_f64;
+        let mut step = self.methods.step(method, L::Scalar::constant(h)).ok_or(None)?;
+        for _ in 0..(ComplexField::ceil(span / h) as u32).clamp(1, PASSING) {
+            largest = largest.max(self.measure(method, steps, &state, elapsed)?.local);
+            let taken = step.advance(self.system, elapsed, &state).map_err(Some)?;
+            self.spent += taken.evaluations;
+            (state, elapsed) = (taken.step.state, elapsed + h);
+        }
+        Ok(passage.share() * largest)
     }
 
     /// One step from the start against two half ones, and where the system breaks on the way one from the
@@ -328,7 +378,9 @@ where
             local += measured.local * share;
             evaluations += measured.evaluations * share;
         }
-        Ok(Measured { local, evaluations })
+        let in_passage =
+            self.passage.map_or(Ok(0.0), |passage| self.measure_passage(method, steps, &passage))?;
+        Ok(Measured { local, in_passage, evaluations })
     }
 
     /// The error over so many steps that err by `local`.
@@ -362,7 +414,7 @@ where
                     2.0 * steps
                 }
                 Ok(measured) => {
-                    let expected = self.expected(method, steps, measured.local);
+                    let expected = self.expected(method, steps, measured.mean());
                     let candidate = Candidate { method, steps, measured, expected };
                     if closest.is_none_or(|closest| expected < closest.expected) {
                         closest = Some(candidate);
@@ -417,11 +469,11 @@ where
     /// pericentre outwards, and alone it would ask for steps that the start does not bear. After the step has
     /// changed, the error there is taken to have gone with its power.
     fn explore(&mut self, best: &mut Candidate) {
-        let most = self.bounds.most as f64;
-        let cost = best.steps.min(most) * best.measured.evaluations;
+        let Bounds { most, costliest, .. } = self.bounds;
+        let cost = (best.steps.min(most as f64) * best.measured.evaluations).min(costliest);
         let budget = (self.spent + EXPLORING * cost).max(CHOOSING * cost);
         let p = f64::from(best.method.order());
-        let (at_start, of_steps) = (best.measured.local, best.steps);
+        let (at_start, in_passage, of_steps) = (best.measured.local, best.measured.in_passage, best.steps);
         let mut remaining = 3;
         while remaining > 0 {
             remaining -= 1;
@@ -464,13 +516,13 @@ where
             if looks == 0.0 {
                 return;
             }
-            let at_start = at_start * ComplexField::powf(of_steps / best.steps, p + 1.0);
-            let mean = (at_start + sum) / (1.0 + looks);
-            best.measured.local = mean;
+            let power = ComplexField::powf(of_steps / best.steps, p + 1.0);
+            best.measured.local = (at_start * power + sum) / (1.0 + looks);
+            best.measured.in_passage = in_passage * power;
             if taken > 0.0 {
                 best.measured.evaluations = evaluations / taken;
             }
-            best.expected = self.expected(method, best.steps, mean);
+            best.expected = self.expected(method, best.steps, best.measured.mean());
             let ratio = SAFETY * self.tolerance / best.expected;
             let factor = ComplexField::powf(ratio, 1.0 / p);
             if (0.95..1.3).contains(&factor) {
