@@ -151,8 +151,9 @@ pub(crate) struct Reached<S, const N: usize> {
 /// The undamped method, as long as it contracts as Newton's does.
 ///
 /// Newton's residuals fall as |r′| ≈ C|r|², so the last contraction c predicts the next one, c². Where that
-/// ends at the floor, the matrix is not needed again. On the way residuals are weighed by the floor at the
-/// guess; the root is held against its own.
+/// ends at the floor, the matrix is not needed again. Contractions that stay as they are, are those of
+/// rounding: at rest h v̄ may be less than the last place of q, which forces then do not see. On the way
+/// residuals are weighed by the floor at the guess; the root is held against its own.
 #[inline]
 #[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a contraction that is NaN must fail the comparison")]
 pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
@@ -165,7 +166,7 @@ pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     let State { q, p } = state;
     let mut v = guess;
     let mut weights: SVector<S, N> = nalgebra::zero();
-    let mut last_size = S::zero();
+    let (mut last_size, mut slow) = (S::zero(), S::constant(SLOW));
     let mut reached = Reached { v, iterations: 0 };
     for iterations in 0..QUICK_ITERATIONS {
         let kernel = evaluate(q, &v);
@@ -181,10 +182,10 @@ pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         } else {
             let size = weighted(&residual, &weights);
             let contraction = size / last_size;
-            if !(contraction <= S::constant(SLOW)) {
+            if !(contraction <= slow) && !(size <= S::one() && contraction <= S::constant(SLOW)) {
                 break;
             }
-            last_size = size;
+            (last_size, slow) = (size, contraction * S::constant(0.5));
             size <= S::one() || contraction * contraction * size <= S::one()
         };
         reached = Reached { v, iterations };

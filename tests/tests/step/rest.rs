@@ -158,6 +158,29 @@ fn masses_come_to_rest_by_dual_numbers_too() {
 
 /// By the rules that take L and R together: points between which the forces cancel exactly, nearly, and that
 /// are far apart.
+/// A bob over three magnets: away from the axis it rests where the forces of two of them cancel.
+#[rayleigh_system(rule = midpoint)]
+fn magnets(q: [f64; 2], v: [f64; 2], r: f64) -> (f64, f64) {
+    let to = |x: f64, y: f64| ((q[0] - x) * (q[0] - x) + (q[1] - y) * (q[1] - y) + 0.04).sqrt();
+    let (a, b, c) = (to(1.0, 0.0), to(-0.5, 0.866), to(-0.5, -0.866));
+    let (speed, radius) = (v[0] * v[0] + v[1] * v[1], q[0] * q[0] + q[1] * q[1]);
+    (0.5 * speed - 0.1 * radius + 1.0 / a + 1.0 / b + 1.0 / c, 0.5 * r * speed)
+}
+
+#[test]
+fn a_step_at_rest_takes_as_many_iterations_as_one_in_motion() {
+    for q in [[0.9, 0.7], [0.3, -0.2], [-1.2, 0.5], [0.4, 0.0], [-0.2, -1.1]] {
+        let bob = Magnets { r: 0.2 };
+        let mut run = bob.by(Midpoint, 0.05).run(State::from_velocity(&bob, q, [0.0; 2]).unwrap());
+        let mut iterations_of = |steps: usize| {
+            run.by_ref().take(steps).map(|step| step.unwrap().report.iterations).sum::<u32>() as f64
+                / steps as f64
+        };
+        let (in_motion, _, at_rest) = (iterations_of(400), iterations_of(20_000), iterations_of(1_000));
+        assert!(at_rest <= in_motion && in_motion < 3.5, "{q:?}: {in_motion} {at_rest}");
+    }
+}
+
 #[test]
 fn a_mass_comes_to_rest_by_rules_that_take_the_damping_in_their_own_way() {
     fn refused<M: Copy>(wells: &Wells, method: M, h: f64, q: f64) -> Option<String>

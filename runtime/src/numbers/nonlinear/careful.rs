@@ -5,7 +5,7 @@ use core::mem::swap;
 use super::equations::{Equations, Matrix, Root, Solved, Unsolved};
 use super::rounding::{SLOW, estimated_floor, in_units_of, worst};
 use super::vectors::{Room, copy, largest, sum};
-use super::verdict::{Counts, stagnated, verified};
+use super::verdict::{Counts, Rounding, stagnated, verified};
 use crate::numbers::Precision;
 
 /// Newton's method needs a few iterations near a root; damped ones near a fold, or undamped ones from far out
@@ -92,6 +92,17 @@ pub(super) fn careful<S: Precision>(
                 None => Unsolved::Singular { iteration: iterations, column: singular.column },
             });
         }
+        // At rest between forces that cancel the undamped method has ended at the root's rounding already:
+        // one more correction, so that what is left is rounding alone.
+        if last.size.is_none() {
+            let counts = Counts { iterations: iterations + 1, damped, last_correction: largest(correction) };
+            sum(last.v, trial, -S::one(), correction);
+            let found =
+                verified(of, (last.v, Matrix::Present), counts, Rounding::OfTerms, root, room.inner());
+            if let Some(solution) = found {
+                return Ok(solution);
+            }
+        }
         of.evaluate.keep();
         swap(&mut last.v, &mut trial);
         swap(&mut last.residual, &mut residual);
@@ -115,7 +126,8 @@ pub(super) fn careful<S: Precision>(
             // magnitude.
             of.evaluate(trial, residual);
             let counts = Counts { iterations, damped, last_correction: largest(last.correction) };
-            if let Some(solution) = verified(of, (trial, Matrix::Present), counts, false, root, room.inner())
+            if let Some(solution) =
+                verified(of, (trial, Matrix::Present), counts, Rounding::OfFloor, root, room.inner())
             {
                 return Ok(solution);
             }

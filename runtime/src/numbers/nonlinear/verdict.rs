@@ -40,14 +40,25 @@ pub(super) struct Counts<S> {
     pub(super) last_correction: S,
 }
 
-/// The solution at `v`, where the Newton matrix is `matrix`; nothing if it is none. With `may_round`,
-/// whatever rounds may explain a residual that has stopped falling; the present matrix is another one then.
+/// What may explain a residual beside its floor.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Rounding {
+    /// Nothing.
+    OfFloor,
+    /// Terms that cancel.
+    OfTerms,
+    /// Whatever rounds: of a residual that has stopped falling.
+    OfAll,
+}
+
+/// The solution at `v`, where the Newton matrix is `matrix`; nothing if it is none. Where more than the floor
+/// may explain the residual, the present matrix is another one then.
 #[inline(never)]
 pub(super) fn verified<S: Precision>(
     of: &mut Equations<'_, S>,
     (v, matrix): (&[S], Matrix<'_, S>),
     Counts { iterations, damped, last_correction }: Counts<S>,
-    may_round: bool,
+    rounding: Rounding,
     root: &mut Root<'_, S>,
     mut room: Room<'_, S>,
 ) -> Option<Solved<S>> {
@@ -59,7 +70,7 @@ pub(super) fn verified<S: Precision>(
     estimated_floor(of, matrix, v, floor, room.inner());
     copy(estimated, floor);
     let held = held_against(remaining, floor);
-    if !held.2 && !may_round || !last_correction.is_finite() {
+    if !held.2 && rounding == Rounding::OfFloor || !last_correction.is_finite() {
         return None;
     }
     copy(root.v, v);
@@ -68,14 +79,14 @@ pub(super) fn verified<S: Precision>(
         add_terms(of, v, terms, room.inner());
         is_sensible_at_rest(of, floor, terms, room.inner())
     } else {
-        is_explained(of, v, remaining, floor, room.inner())
-            || MEASURES_NOISE && {
+        is_explained(of, v, remaining, floor, rounding, room.inner())
+            || MEASURES_NOISE && rounding == Rounding::OfAll && {
                 is_polished(of, root.v, remaining, estimated, room.inner()) && {
                     of.momenta(of.q, root.v, root.p0, root.p1, room.inner());
                     // Not that of an iterate on the way.
                     of.evaluate(root.v, estimated);
                     estimated_floor(of, Matrix::Present, root.v, floor, room.inner());
-                    is_explained(of, root.v, remaining, floor, room.inner())
+                    is_explained(of, root.v, remaining, floor, rounding, room.inner())
                 }
             }
     };
@@ -157,6 +168,7 @@ fn is_explained<S: Precision>(
     v: &[S],
     remaining: &[S],
     floor: &mut [S],
+    rounding: Rounding,
     mut room: Room<'_, S>,
 ) -> bool {
     let found = room.vector();
@@ -167,6 +179,9 @@ fn is_explained<S: Precision>(
     add_finite_part(terms, S::one(), found);
     if held_against(remaining, floor).2 {
         return is_sensible_at_rest(of, floor, terms, room);
+    }
+    if rounding == Rounding::OfTerms {
+        return false;
     }
     // Far above what any sensible floor explains, no last places are moved: of a step that fails, that would
     // be most of the cost.
@@ -253,9 +268,9 @@ pub(super) fn stagnated<S: Precision>(
     mut room: Room<'_, S>,
 ) -> Option<Solved<S>> {
     // One component that rounding holds up can hide that the step has brought the others down.
-    let mut found = verified(of, (trial, Matrix::Present), counts, true, root, room.inner());
+    let mut found = verified(of, (trial, Matrix::Present), counts, Rounding::OfAll, root, room.inner());
     if found.is_none() && !lower {
-        found = verified(of, (last, Matrix::Before), counts, true, root, room.inner());
+        found = verified(of, (last, Matrix::Before), counts, Rounding::OfAll, root, room.inner());
     }
     // Where noise is measured, the matrix is evaluated elsewhere.
     if MEASURES_NOISE && found.is_none() {
@@ -313,7 +328,15 @@ mod tests {
         let counts = Counts { iterations: 1, damped: 0, last_correction };
         let mut root = Root { v: &mut [0.0], p0: &mut [0.0], p1: &mut [0.0] };
         let buffer = &mut [0.0; VECTORS];
-        verified(&mut of, (&[1.0], Matrix::Present), counts, false, &mut root, Room::new(buffer, 1)).is_some()
+        verified(
+            &mut of,
+            (&[1.0], Matrix::Present),
+            counts,
+            Rounding::OfFloor,
+            &mut root,
+            Room::new(buffer, 1),
+        )
+        .is_some()
     }
 
     #[test]
@@ -356,7 +379,7 @@ mod tests {
                 for _ in 0..from_rest + 7 {
                     room.vector();
                 }
-                verified(&mut of, (&[1.0; 2], Matrix::Present), counts, true, &mut root, room);
+                verified(&mut of, (&[1.0; 2], Matrix::Present), counts, Rounding::OfAll, &mut root, room);
             })
             .is_ok()
         };

@@ -61,7 +61,8 @@ where
     let mut v = *guess;
     let mut is_open = whose;
     let mut weights = *guess;
-    let mut last_size = one;
+    let slowest = Members::splat(L::Scalar::constant(SLOW));
+    let (mut last_size, mut slow) = (one, slowest);
     for iterations in 0..QUICK_ITERATIONS {
         let (p0, matrix) = L::step_kernel_in_lanes(fields, q, &v, h);
         let residual = difference(&p0, p);
@@ -79,8 +80,10 @@ where
             let mut is_known = size.less_or_equal(one);
             if iterations > 0 {
                 let contraction = size / last_size;
-                is_open = is_open & contraction.less_or_equal(Members::splat(L::Scalar::constant(SLOW)));
+                let is_slow_at_floor = is_known & contraction.less_or_equal(slowest);
+                is_open = is_open & (contraction.less_or_equal(slow) | is_slow_at_floor);
                 is_known = is_known | (contraction * contraction * size).less_or_equal(one);
+                slow = contraction * Members::splat(L::Scalar::constant(0.5));
             }
             last_size = size;
             is_close = is_open & is_known;
