@@ -40,14 +40,14 @@ pub(super) struct Counts<S> {
     pub(super) last_correction: S,
 }
 
-/// What may explain a residual beside its floor.
+/// Roundings that may explain a residual.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Rounding {
-    /// Nothing.
+    /// The floor alone.
     OfFloor,
-    /// Terms that cancel.
+    /// Terms that cancel as well.
     OfTerms,
-    /// Whatever rounds: of a residual that has stopped falling.
+    /// Any: of a residual that has stopped falling.
     OfAll,
 }
 
