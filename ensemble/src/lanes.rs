@@ -80,6 +80,9 @@ impl<L: LanesBy<M, N>, M, const N: usize, const W: usize> Versioned for Advance<
 /// stay in the cache.
 const MOST_BYTES: usize = 256 * 1024;
 
+/// Steps after which it is asked whether a lane has failed, however far its next record is.
+const LONG: u64 = 1 << 12;
+
 /// Members at a time, of at most so many: 8, or as many more as the method takes while their runs stay small.
 const fn width<L: LanesBy<M, N>, M, const N: usize>(most: usize) -> usize {
     if most >= 32 && fits::<L, M, N, 32>() {
@@ -165,8 +168,8 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         lanes.iter_mut().for_each(|lane| *lane = waiting.next());
         let Some(first) = &lanes[0] else { return };
         let (mut systems, mut starts) = ([first.system; W], [first.start; W]);
-        // Steps until the next record of each lane; a lane without a member has none.
-        let mut left = [u64::MAX; W];
+        // Steps until the next record of each lane, where it has a member.
+        let mut left = [0; W];
         for (lane, member) in lanes.iter().enumerate() {
             let Some(member) = member else { continue };
             (systems[lane], starts[lane], left[lane]) = (member.system, member.start, member.next);
@@ -175,10 +178,12 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         if let Some(error) = self.plan.error {
             runs = runs.solved_for(error, self.plan.time());
         }
+        // Whether records are so far away that a lane may have failed long before.
+        let mut is_long = false;
         loop {
             let mut arriving = [None; W];
             for lane in 0..W {
-                if left[lane] > 0 {
+                if left[lane] > 0 && !(is_long && runs.state(lane).is_none()) {
                     continue;
                 }
                 let Some(member) = &mut lanes[lane] else { continue };
@@ -187,7 +192,7 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
                     continue;
                 }
                 lanes[lane] = waiting.next();
-                left[lane] = u64::MAX;
+                left[lane] = 0;
                 if let Some(next) = &lanes[lane] {
                     (arriving[lane], starts[lane], left[lane]) = (Some(next.system), next.start, next.next);
                 }
@@ -195,13 +200,14 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
             if arriving.iter().any(Option::is_some) {
                 runs.refill(arriving, &starts);
             }
-            let part = left.iter().fold(u64::MAX, |least, &left| least.min(left));
-            if part == u64::MAX {
-                return;
-            }
+            let taken =
+                lanes.iter().zip(&left).filter_map(|(member, &left)| member.is_some().then_some(left));
+            let Some(next) = taken.min() else { return };
+            is_long = next > LONG;
+            let part = next.min(LONG);
             if part > 0 {
                 in_widest(Advance { runs: &mut runs, steps: part });
-                left.iter_mut().for_each(|left| *left -= if *left == u64::MAX { 0 } else { part });
+                left.iter_mut().for_each(|left| *left = left.saturating_sub(part));
             }
         }
     }

@@ -207,3 +207,23 @@ fn members_by_gauss_rules_are_their_own_runs() {
     assert_ne!(ends(None, true), ends(Some(1e-5), true));
     assert!(ends(None, true).iter().any(|end| end.starts_with("Err")));
 }
+
+/// Members that all leave, in a run that has no end of its own: until they arrive, or fail on the way.
+#[test]
+fn runs_of_any_length_end_with_their_members() {
+    let member = |number: u64| {
+        let start = State { q: [0.0, 1.5 + 1e-2 * number as f64].into(), p: [0.0, 0.5].into() };
+        Ok((HenonHeiles { depth: 1.0, r: 0.0 }, start))
+    };
+    for steps in [u64::MAX, u64::MAX - 1] {
+        let study = || Ensemble::new(member).by(Splitting::blanes_moan_6(), 0.2).steps(steps);
+        let has_left = |record: &Record<'_, HenonHeiles, 2>| record.state.q[1] > 3.0;
+        let study_to_there = || study().every(1).stop_when(has_left);
+        let arrived = study_to_there().in_lanes().ends(0..40).unwrap();
+        assert_eq!(arrived, study_to_there().ends(0..40).unwrap());
+        assert!(arrived.iter().all(|end| end.is_ok_and(|end| end.state.q[1] > 3.0)));
+        let failed = study().in_lanes().ends(0..40).unwrap();
+        assert_eq!(failed, study().ends(0..40).unwrap());
+        assert!(failed.iter().all(Result::is_err));
+    }
+}
