@@ -47,20 +47,14 @@ fn main() -> Result<()> {
     let (numbers, folder) = arguments()?;
     let study = Ensemble::new(member).by(Splitting::blanes_moan_6(), H).steps(STEPS).in_lanes().on_progress(
         |Progress { done, failed, members }| {
-            eprint!("\r{done} of {members} members of this part, {failed} failed ");
+            eprint!("\r{done} of {members} members, {failed} failed ");
             ControlFlow::Continue(())
         },
     );
     let parts = study.parts(&folder).members_per_part(16_384).column("r", |of| of.r).metadata("seed", SEED);
     let written = parts.write(numbers)?;
     eprintln!();
-    println!(
-        "{}: {} parts written, {} were there; {} members failed",
-        folder.display(),
-        written.written,
-        written.found,
-        written.failed
-    );
+    println!("{}: {written}", folder.display());
     Ok(())
 }
 

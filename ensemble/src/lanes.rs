@@ -151,6 +151,10 @@ where
     fn description(&self) -> String {
         self.plan.description::<M>()
     }
+
+    fn at_start(&self, system: &L, start: &State<L::Scalar, N>) -> Vec<f64> {
+        self.plan.first_step(self.method, system, start)
+    }
 }
 
 impl<M: Copy, S: Scalar> InLanes<M, S> {

@@ -1,8 +1,8 @@
 //! Results as Parquet files: one for each part of the members.
 //!
-//! A part is there whole or not at all: it is written beside its place and renamed. What is there is done, so
-//! that the parts are the checkpoint: after a kill, a full disk or a lost machine the same call computes what
-//! is missing, and at the end the files are the same bits.
+//! A part is there whole or not at all: it is written beside its place and then given its name. What is there
+//! is done, so that the parts are the checkpoint: after a kill, a full disk or a lost machine the same call
+//! computes what is missing, and at the end the files are the same bits.
 //!
 //! ```
 //! use dalembert::{Midpoint, State, rayleigh_system};
@@ -31,25 +31,55 @@
 //!
 //! **Columns.** `member`; those of [`column`](Parts::column); `t`; `q0` …, `p0` …; `energy`, at the time of
 //! the row; `error`, null where there is none. A member that fails has its last good state in its last row,
-//! with the error; one without a start has nulls. **Metadata**: system, structure, method with step size and
-//! records, version, and those of [`metadata`](Parts::metadata); a part with others is refused as another
-//! study's.
+//! with the error; one without a start has nulls.
+//!
+//! **A folder is of one study.** Its file `_study.parquet` says of which, as metadata: system, structure,
+//! method with step size and records, members of a part, version, and [`metadata`](Parts::metadata). The
+//! first call puts it down, and another study is refused, if it begins at the same moment too. It has the
+//! columns of the parts and no rows, so that readers of a whole folder may read it or leave it out.
+//!
+//! **A part is of its members.** Its metadata hold the same, its range, and a digest of its members' starts
+//! and columns; of 64 members, evenly spread, also of the state after the first step. A call that finds a
+//! part makes its members anew, does not step them further, and compares. Fields that differ in members
+//! between those 64 alone and stand in no column are not seen: say them by
+//! [`identified_by`](Parts::identified_by). Nor is a closure of [`stop_when`](Study::stop_when): say by
+//! `metadata` what it waits for.
+//!
+//! **A part is what was written.** Its metadata hold a digest of all bytes of the file too, of 128 bits
+//! (XXH3). A part that is found is read and compared once; of a flipped bit, a cut file, or a part under the
+//! name of another a [`PartsError`] says which it is, and what to do.
+//!
+//! **Calls may run at once,** of one process or several, on one machine or several: parts of the same study
+//! and other ranges, or the same ones. A part is put in its place by a link, which replaces nothing: who
+//! comes second finds the first part, and compares it with its own. What a process has begun has a name of
+//! its own, `.members-….parquet.PROCESS@HOST`, and is locked while the process lives. What a killed process
+//! has left is removed by the next call for these members on the same host, or on any when the part is
+//! there; else it is left alone, and counted ([`Written::spared`]). File systems without links (FAT) get a
+//! rename that replaces nothing; where there is none either, [`PartsError::MayReplace`] says so.
 
+mod draft;
+mod encoding;
 mod error;
-mod file;
+mod found;
+mod identity;
+mod listing;
+mod metadata;
+mod names;
+mod sealed;
+mod starts;
 mod table;
+mod write;
 
-use std::fs;
+use core::fmt;
 use std::ops::Range;
-use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
-use std::thread::{self, ScopedJoinHandle};
 
 use dalembert::{Lagrangian, State, StepError};
 
+use crate::member::Record;
 use crate::progress::Progress;
 use crate::stepping::Stepping;
-use crate::study::{Outcome, Study};
+use crate::study::{Keeping, Outcome, Start, Study};
 pub use error::PartsError;
 use table::{Column, Row, Table};
 
@@ -64,17 +94,39 @@ pub struct Parts<'s, 'f, F, M, L: Lagrangian<N>, const N: usize> {
     members: u64,
     columns: Vec<Column<'s, L>>,
     metadata: Vec<(String, String)>,
+    own: Option<OwnDigest<'s>>,
 }
+
+/// A digest of a member that the caller makes, of its number.
+type OwnDigest<'s> = Box<dyn Fn(u64) -> u128 + Sync + 's>;
 
 /// Counts of the parts written and found, and of the members that failed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Written {
     /// Parts that were computed and written.
     pub written: u64,
-    /// Parts that were there.
+    /// Parts that were there, or that another call has written meanwhile.
     pub found: u64,
     /// Members that failed, of parts written and found.
     pub failed: u64,
+    /// Members among them of parts that were found.
+    pub failed_before: u64,
+    /// Files of parts of this call that another call writes, or may be writing on another host, left alone.
+    pub spared: u64,
+}
+
+impl fmt::Display for Written {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { written, found, failed, failed_before, spared } = self;
+        write!(f, "{written} parts written, {found} were there; {failed} members failed")?;
+        if *failed_before > 0 {
+            write!(f, ", {failed_before} of them in parts that were there")?;
+        }
+        if *spared > 0 {
+            write!(f, "; {spared} files that another call may be writing were left alone")?;
+        }
+        Ok(())
+    }
 }
 
 impl<'f, F, M, L, const N: usize> Study<'f, F, M, L, N>
@@ -91,6 +143,7 @@ where
             members: MEMBERS_PER_PART,
             columns: Vec::new(),
             metadata: Vec::new(),
+            own: None,
         }
     }
 }
@@ -119,58 +172,22 @@ where
     /// [`stop_when`](Study::stop_when) waits for: it stands in every part, and a part
     /// with another is refused.
     pub fn metadata(mut self, key: impl Into<String>, value: impl ToString) -> Self {
-        self.metadata.push((key.into(), value.to_string()));
+        let key = key.into();
+        self.metadata.retain(|(known, _)| *known != key);
+        self.metadata.push((key, value.to_string()));
         self
     }
 
-    /// Computes the parts of the members `numbers` that are not there, and writes them.
-    ///
-    /// The numbers start with a part; of several processes that write into one folder, each takes its own.
-    /// Progress counts the members of the part that is computed.
-    ///
-    /// # Errors
-    /// A [`PartsError`]. The parts written until then stay.
-    pub fn write(&self, numbers: Range<u64>) -> Result<Written, PartsError> {
-        if !numbers.start.is_multiple_of(self.members) {
-            return Err(PartsError::Unaligned { start: numbers.start, members: self.members });
-        }
-        let at = |source| PartsError::Io { path: self.folder.clone(), source };
-        fs::create_dir_all(&self.folder).map_err(at)?;
-        let planned: Vec<Range<u64>> = self.planned(numbers).collect();
-        file::require_apart(&self.folder, &planned)?;
-        file::remove_leftovers(&self.folder, &planned);
-        let metadata = self.described();
-        let mut written = Written::default();
-        // A part is written while the next is computed.
-        thread::scope(|scope| {
-            let mut writing: Option<ScopedJoinHandle<'_, Result<(), PartsError>>> = None;
-            let compute_all = || {
-                for part in planned {
-                    let path = file::path(&self.folder, &part);
-                    if path.try_exists().map_err(|source| PartsError::Io { path: path.clone(), source })? {
-                        written.failed += file::failed_in(&path, &metadata)?;
-                        written.found += 1;
-                        continue;
-                    }
-                    let (table, failed) = self.computed(part).map_err(PartsError::Cancelled)?;
-                    finished(writing.take())?;
-                    written.failed += failed;
-                    written.written += 1;
-                    let metadata = &metadata;
-                    writing = Some(scope.spawn(move || file::write(&path, &table, metadata)));
-                }
-                Ok(())
-            };
-            let computed = compute_all();
-            finished(writing)?;
-            computed
-        })?;
-        Ok(written)
+    /// A digest of each member, of its number, that tells it from that of another study where the start, the
+    /// columns and the first step do not: of fields, say, that act later or on few members.
+    pub fn identified_by(mut self, digest: impl Fn(u64) -> u128 + Sync + 's) -> Self {
+        self.own = Some(Box::new(digest));
+        self
     }
 
     /// The files that the members `numbers` are in, or will be.
     pub fn paths(&self, numbers: Range<u64>) -> impl Iterator<Item = PathBuf> {
-        self.planned(numbers).map(|part| file::path(&self.folder, &part))
+        self.planned(numbers).map(|part| names::path(&self.folder, &part))
     }
 
     fn planned(&self, numbers: Range<u64>) -> impl Iterator<Item = Range<u64>> {
@@ -179,41 +196,58 @@ where
         firsts.map(move |first| first..numbers.end.min(first.saturating_add(members)))
     }
 
-    /// The rows of one part, and how many of its members failed.
-    fn computed(&self, part: Range<u64>) -> Result<(Table, u64), Progress> {
-        let names: Vec<&str> = self.columns.iter().map(|(name, _)| name.as_str()).collect();
-        let rows_of = |outcomes: Vec<Outcome<Vec<Row<N>>, L::Scalar, N>>| {
-            let (mut table, mut failed) = (Table::new(&names, N), 0);
-            for mut outcome in outcomes {
-                if let Some(failure) = &outcome.failure {
-                    failed += 1;
-                    self.add_failure(&mut outcome.value, failure);
+    /// A table of no rows.
+    fn empty(&self) -> Table {
+        let columns: Vec<&str> = self.columns.iter().map(|(name, _)| name.as_str()).collect();
+        Table::new(&columns, N)
+    }
+
+    /// The rows of a part and more; `progress` is that before.
+    fn computed(&self, part: &Range<u64>, progress: Progress) -> Result<Computed, Progress> {
+        let empty = || Computed { table: self.empty(), failed: 0, starts: Vec::new() };
+        let together = |outcomes: Vec<Outcome<Begun<N>, L::Scalar, N>>| {
+            let mut all = empty();
+            for Outcome { value: (mut rows, start), failure, .. } in outcomes {
+                if let Some(failure) = &failure {
+                    all.failed += 1;
+                    self.add_failure(&mut rows, failure);
                 }
-                outcome.value.into_iter().for_each(|row| table.push(row));
+                rows.into_iter().for_each(|row| all.table.push(row));
+                all.starts.push(start);
             }
-            (table, failed)
+            all
+        };
+        let observe = |(rows, _): &mut Begun<N>, record: &Record<'_, L, N>| {
+            rows.push(Row::of(record.number, record.system, &self.columns, record.time, &record.state));
         };
         self.study
             .reduce_chunks(
-                part,
-                |_| Vec::new(),
-                |rows, record| {
-                    rows.push(Row::of(
-                        record.number,
-                        record.system,
-                        &self.columns,
-                        record.time,
-                        &record.state,
-                    ));
+                part.clone(),
+                progress,
+                Keeping {
+                    value: |number, start: &Start<L, N>| (Vec::new(), self.start_of(part, number, start)),
+                    observe,
+                    together,
                 },
-                rows_of,
-                (Table::new(&names, N), 0),
-                |(table, failed), (more, more_failed)| {
-                    table.append(more);
-                    *failed += more_failed;
+                empty(),
+                |all, more| {
+                    all.table.append(more.table);
+                    all.failed += more.failed;
+                    all.starts.extend(more.starts);
                 },
             )
             .map_err(|cancelled| cancelled.progress)
+    }
+
+    /// The digest of a member of `part` as it starts.
+    fn start_of(&self, part: &Range<u64>, number: u64, start: &Start<L, N>) -> u128 {
+        let others = |system: &L, state: &State<L::Scalar, N>| {
+            let columns = self.columns.iter().map(|(_, value)| value(system));
+            let is_sampled = starts::is_sampled(part, number);
+            let motion = if is_sampled { self.study.stepping.at_start(system, state) } else { Vec::new() };
+            columns.chain(motion).collect()
+        };
+        starts::of_member(start, others, self.own.as_ref().map(|own| own(number)))
     }
 
     /// The last row of a member that failed.
@@ -242,13 +276,20 @@ where
             ("dalembert.method", self.study.stepping.description()),
             ("dalembert.stops_when_arrived", self.study.arrival.is_some().to_string()),
             ("dalembert.columns", columns.join(", ")),
+            ("dalembert.members_per_part", self.members.to_string()),
         ];
         let own = own.map(|(key, value)| (key.to_owned(), value));
         own.into_iter().chain(self.metadata.iter().cloned()).collect()
     }
 }
 
-/// Waits until a part is there.
-fn finished(writing: Option<ScopedJoinHandle<'_, Result<(), PartsError>>>) -> Result<(), PartsError> {
-    writing.map_or(Ok(()), |writing| writing.join().unwrap_or_else(|panic| resume_unwind(panic)))
+/// The rows of a member, and its digest as it starts.
+type Begun<const N: usize> = (Vec<Row<N>>, u128);
+
+/// One part, computed.
+struct Computed {
+    table: Table,
+    failed: u64,
+    /// The digests of its members as they start.
+    starts: Vec<u128>,
 }

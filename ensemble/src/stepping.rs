@@ -35,6 +35,13 @@ pub trait Stepping<L: Lagrangian<N>, const N: usize>: Sync {
 
     /// How the members are stepped, in words: that two studies are the same.
     fn description(&self) -> String;
+
+    /// Numbers of a member's motion from its start, by which it is told from one that starts alike and moves
+    /// otherwise, as with other fields. None unless it is implemented.
+    fn at_start(&self, system: &L, start: &State<L::Scalar, N>) -> Vec<f64> {
+        let _ = (system, start);
+        Vec::new()
+    }
 }
 
 /// One member after the other: the run of each that has a start, and its failure.
@@ -97,6 +104,10 @@ where
     fn description(&self) -> String {
         self.plan.description::<M>()
     }
+
+    fn at_start(&self, system: &L, start: &State<L::Scalar, N>) -> Vec<f64> {
+        self.plan.first_step(self.method, system, start)
+    }
 }
 
 impl<S: Scalar> Plan<S> {
@@ -104,6 +115,22 @@ impl<S: Scalar> Plan<S> {
         let Self { h, steps, every, error } = self;
         let solved = error.map_or_else(String::new, |error| format!(", solved for {error:?}"));
         format!("{}, h = {h:?}, {steps} steps, every {every:?}{solved}", type_name::<M>())
+    }
+
+    /// The state after one step; none where it fails.
+    pub(crate) fn first_step<L, M, const N: usize>(
+        &self,
+        method: M,
+        system: &L,
+        start: &State<S, N>,
+    ) -> Vec<f64>
+    where
+        L: Flow<M, N, Scalar = S>,
+        M: MethodOf<L, N>,
+    {
+        let step = system.by(method, self.h).step(start);
+        let state = step.iter().flat_map(|step| step.state.q.iter().chain(&step.state.p));
+        state.map(|entry| entry.widen()).collect()
     }
 
     /// The time of the last step.
@@ -189,6 +216,14 @@ where
             let _ = observe(value, &Record { number, system, steps, time, state });
             Ok(())
         });
+    }
+
+    fn at_start(&self, system: &L, start: &State<L::Scalar, N>) -> Vec<f64> {
+        let Ok(v) = start.velocity(system) else { return Vec::new() };
+        let (of_l, of_r) = (system.lagrangian_gradient(&start.q, &v), system.dissipation(&start.q, &v));
+        let force = system.general_force(&start.q, &v);
+        let vectors = [of_l.d1, of_l.d2, of_r.d1, of_r.d2, force];
+        vectors.iter().flatten().map(|entry| entry.widen()).collect()
     }
 
     fn description(&self) -> String {

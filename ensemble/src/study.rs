@@ -82,6 +82,9 @@ impl<F> Ensemble<F> {
 
 type Callback<'f> = Box<dyn Fn(Progress) -> ControlFlow<()> + Sync + 'f>;
 
+/// A member's system and start, or why there is none.
+pub(crate) type Start<L, const N: usize> = Result<(L, State<<L as Lagrangian<N>>::Scalar, N>), StepError>;
+
 /// Whether a member has arrived.
 type Arrival<'f, L, const N: usize> = Box<dyn Fn(&Record<'_, L, N>) -> bool + Sync + 'f>;
 
@@ -108,6 +111,16 @@ pub struct Outcome<V, S, const N: usize> {
     pub value: V,
     /// Why it is not what was asked for.
     pub failure: Option<Failure<S, N>>,
+}
+
+/// How members are kept in a reduction.
+pub(crate) struct Keeping<V, O, T> {
+    /// Makes the value of a member, of its number and start.
+    pub(crate) value: V,
+    /// Changes it at a record.
+    pub(crate) observe: O,
+    /// Puts the values of a chunk together, where its members were stepped.
+    pub(crate) together: T,
 }
 
 impl<F, M, L: Lagrangian<N>, const N: usize> Study<'_, F, M, L, N> {
@@ -331,29 +344,31 @@ where
         total: A,
         mut add: impl FnMut(&mut A, Outcome<V, L::Scalar, N>),
     ) -> Result<A, Cancelled<A>> {
+        let members = numbers.end.saturating_sub(numbers.start);
         self.reduce_chunks(
             numbers,
-            value,
-            observe,
-            |outcomes| outcomes,
+            Progress { done: 0, failed: 0, members },
+            Keeping { value: |number, _: &_| value(number), observe, together: |outcomes| outcomes },
             total,
             |total, outcomes| outcomes.into_iter().for_each(|outcome| add(total, outcome)),
         )
     }
 
-    /// As [`reduce`](Self::reduce), but what is kept of a chunk's members is put together where they were
-    /// stepped, and added to the total as one.
+    /// As [`reduce`](Self::reduce), but what is kept of a chunk's members is added to the total as one.
+    /// `progress` is that before.
     pub(crate) fn reduce_chunks<V, C: Send, A>(
         &self,
         numbers: Range<u64>,
-        value: impl Fn(u64) -> V + Sync,
-        observe: impl Fn(&mut V, &Record<'_, L, N>) + Sync,
-        together: impl Fn(Vec<Outcome<V, L::Scalar, N>>) -> C + Sync,
+        mut progress: Progress,
+        keeping: Keeping<
+            impl Fn(u64, &Start<L, N>) -> V + Sync,
+            impl Fn(&mut V, &Record<'_, L, N>) + Sync,
+            impl Fn(Vec<Outcome<V, L::Scalar, N>>) -> C + Sync,
+        >,
         mut total: A,
         mut add: impl FnMut(&mut A, C),
     ) -> Result<A, Cancelled<A>> {
-        let mut progress =
-            Progress { done: 0, failed: 0, members: numbers.end.saturating_sub(numbers.start) };
+        let Keeping { value, observe, together } = keeping;
         let observe = |value: &mut V, record: &Record<'_, L, N>| {
             observe(value, record);
             let has_arrived = self.arrival.as_ref().is_some_and(|has_arrived| has_arrived(record));
@@ -374,11 +389,9 @@ where
                 }
                 let numbers = first..end.min(first.saturating_add(size));
                 let mut slots: Vec<Slot<L, V, N>> = numbers
-                    .map(|number| Slot {
-                        number,
-                        start: (self.members)(number),
-                        value: value(number),
-                        failure: None,
+                    .map(|number| {
+                        let start = (self.members)(number);
+                        Slot { number, value: value(number, &start), start, failure: None }
                     })
                     .collect();
                 self.stepping.advance(&mut slots, &observe);
@@ -411,7 +424,8 @@ where
         self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
-    fn is_cancelled(&self, progress: Progress) -> bool {
+    /// Tells how far it is, and whether it is to end.
+    pub(crate) fn is_cancelled(&self, progress: Progress) -> bool {
         self.is_flagged() || self.progress.as_ref().is_some_and(|callback| callback(progress).is_break())
     }
 }

@@ -55,17 +55,25 @@ fn what_is_there_is_done_and_the_bits_are_the_same() {
     let (whole, parted) = (folder("whole"), folder("parted"));
     let study = study!();
     let of = |folder: &Path| study.parts(folder).members_per_part(100).column("r", |of| of.r);
-    assert_eq!(of(&whole).write(0..450).unwrap(), Written { written: 5, found: 0, failed: 2 });
+    let none = Written::default();
+    assert_eq!(of(&whole).write(0..450).unwrap(), Written { written: 5, failed: 2, ..none });
     // From two places, one of which lost a part.
     of(&parted).write(300..450).unwrap();
     of(&parted).write(0..300).unwrap();
     fs::remove_file(parted.join("members-000000000100-000000000200.parquet")).unwrap();
     // Those that failed are in a part that is there.
-    assert_eq!(of(&parted).write(0..450).unwrap(), Written { written: 1, found: 4, failed: 2 });
-    assert_eq!(of(&parted).write(0..450).unwrap(), Written { written: 0, found: 5, failed: 2 });
-    assert_eq!(of(&parted).write(100..450).unwrap(), Written { written: 0, found: 4, failed: 0 });
+    let found = Written { failed: 2, failed_before: 2, ..none };
+    let again = of(&parted).write(0..450).unwrap();
+    assert_eq!(again, Written { written: 1, found: 4, ..found });
+    assert_eq!(
+        again.to_string(),
+        "1 parts written, 4 were there; 2 members failed, 2 of them in parts that were there"
+    );
+    assert_eq!(of(&parted).write(0..450).unwrap(), Written { found: 5, ..found });
+    assert_eq!(of(&parted).write(100..450).unwrap(), Written { found: 4, ..none });
     assert_eq!(bytes(&whole), bytes(&parted));
-    assert_eq!(bytes(&whole).len(), 5);
+    // And what they have in common.
+    assert_eq!(bytes(&whole).len(), 5 + 1);
 }
 
 #[test]
@@ -164,7 +172,12 @@ fn what_does_not_belong_together_is_refused() {
     assert!(matches!(&error, PartsError::AnotherStudy { key, .. } if key == "dalembert.method"), "{error}");
     let error = study!().parts(&folder).members_per_part(100).metadata("seed", 2).write(0..200).unwrap_err();
     assert!(matches!(&error, PartsError::AnotherStudy { key, .. } if key == "seed"), "{error}");
+    let error = study!().parts(&folder).members_per_part(100).write(0..200).unwrap_err();
+    assert!(matches!(&error, PartsError::AnotherStudy { expected: None, .. }), "{error}");
     let error = study!().parts(&folder).members_per_part(50).metadata("seed", 1).write(100..200).unwrap_err();
+    assert!(error.to_string().contains("members_per_part is 100 there and 50 here"), "{error}");
+    let error =
+        study!().parts(&folder).members_per_part(100).metadata("seed", 1).write(100..150).unwrap_err();
     assert!(matches!(&error, PartsError::Overlap { .. }), "{error}");
     let error = study!().parts(&folder).members_per_part(100).write(150..200).unwrap_err();
     assert!(matches!(&error, PartsError::Unaligned { start: 150, members: 100 }), "{error}");
@@ -174,28 +187,11 @@ fn what_does_not_belong_together_is_refused() {
     fs::write(folder.join("members-000000000200-000000000300.parquet"), "no part").unwrap();
     let error = study!().parts(&folder).members_per_part(100).metadata("seed", 1).write(0..300).unwrap_err();
     assert!(
-        matches!(&error, PartsError::Parquet { .. }) && error.to_string().contains("may be removed"),
+        matches!(&error, PartsError::Damaged { .. }) && error.to_string().contains("remove it"),
         "{error}"
     );
     let file = folder.join("members-000000000000-000000000100.parquet");
     assert!(matches!(study!().parts(&file).write(0..10), Err(PartsError::Io { .. })));
-}
-
-#[test]
-fn what_a_kill_has_left_of_a_part_goes_when_the_part_is_computed() {
-    let folder = folder("leftovers");
-    fs::create_dir_all(&folder).unwrap();
-    let own = ".members-000000000000-000000000100.parquet.h3Kz9Q";
-    // Another process's part, and files of the user's.
-    let others = [".members-000000000200-000000000300.parquet.h3Kz9Q", ".notes.parquet.old", "notes.txt"];
-    for name in others.into_iter().chain([own]) {
-        fs::write(folder.join(name), "half").unwrap();
-    }
-    study!().parts(&folder).members_per_part(100).write(0..200).unwrap();
-    let there = bytes(&folder);
-    assert!(!there.contains_key(own));
-    assert!(others.iter().all(|&name| there.contains_key(name)));
-    assert_eq!(there.len(), others.len() + 2);
 }
 
 /// Set for the process that is killed: its folder.

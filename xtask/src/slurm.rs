@@ -82,6 +82,8 @@ fn wait_until(tries: usize, milliseconds: u64, is_so: impl Fn() -> Result<bool>)
     Ok(())
 }
 
-fn parts(folder: &Path) -> Result<usize> {
-    Ok(fs::read_dir(folder).context("the folder of parts")?.count())
+/// The number of parts in a folder.
+pub fn parts(folder: &Path) -> Result<usize> {
+    let names = fs::read_dir(folder).context("the folder of parts")?.flatten().map(|entry| entry.file_name());
+    Ok(names.filter(|name| name.to_string_lossy().starts_with("members-")).count())
 }

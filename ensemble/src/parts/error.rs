@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use parquet::errors::ParquetError;
 
+use super::metadata::STARTS;
 use crate::progress::Progress;
 
 /// Why parts are not written.
@@ -25,16 +26,47 @@ pub enum PartsError {
         /// Why.
         source: ParquetError,
     },
-    /// A part that is there is another study's.
+    /// A file that is there is another study's.
     AnotherStudy {
         /// Which.
         path: PathBuf,
-        /// The key of the metadata that differs.
+        /// The key of the metadata that differs; `dalembert.starts` is of the members' fields and starts.
         key: String,
         /// Its value here.
-        expected: String,
+        expected: Option<String>,
         /// Its value there.
         found: Option<String>,
+    },
+    /// A file that is there is not as it was written.
+    Damaged {
+        /// Which.
+        path: PathBuf,
+        /// The way in which it is not.
+        what: &'static str,
+    },
+    /// A part that is there has the name of another.
+    Misplaced {
+        /// Which.
+        path: PathBuf,
+        /// The members that it holds.
+        members: String,
+    },
+    /// A part that another call has put there meanwhile has other results than were computed here.
+    Unequal {
+        /// Which.
+        path: PathBuf,
+    },
+    /// A part that was found or written is not there at the end of the call.
+    Gone {
+        /// Which.
+        path: PathBuf,
+    },
+    /// The file system knows no way to put a file where none is without replacing one.
+    MayReplace {
+        /// Which file.
+        path: PathBuf,
+        /// The answer to the last of the ways.
+        source: io::Error,
     },
     /// A part that is there holds some of the same members, and others.
     Overlap {
@@ -61,14 +93,44 @@ impl fmt::Display for PartsError {
                 "{}: {source}; what is no part may be removed, and is computed again",
                 path.display()
             ),
+            Self::AnotherStudy { path, key, .. } if key == STARTS => write!(
+                f,
+                "{} is another study's: its members have other fields or starts; write into another folder",
+                path.display()
+            ),
             Self::AnotherStudy { path, key, expected, found } => {
-                let found = found.as_deref().unwrap_or("nothing");
+                let [found, expected] = [found, expected].map(|value| value.as_deref().unwrap_or("nothing"));
                 write!(
                     f,
                     "{} is another study's: {key} is {found} there and {expected} here; write into another folder",
                     path.display()
                 )
             }
+            Self::Damaged { path, what } => {
+                write!(f, "{} is damaged: {what}; remove it, and it is made again", path.display())
+            }
+            Self::Misplaced { path, members } => write!(
+                f,
+                "{} holds the members {members}: it has been renamed; give it its name, or remove it",
+                path.display()
+            ),
+            Self::Unequal { path } => write!(
+                f,
+                "{} was written by another call meanwhile, with other results for the same members: a member is not \
+                 a function of its number, or the programs differ",
+                path.display()
+            ),
+            Self::Gone { path } => write!(
+                f,
+                "{} was there and is not any more: something else removes parts; the same call writes it again",
+                path.display()
+            ),
+            Self::MayReplace { path, source } => write!(
+                f,
+                "{}: {source}; this file system has neither links nor a rename that replaces nothing, so that of \
+                 two programs at once one could replace parts of the other: write into a folder of another one",
+                path.display()
+            ),
             Self::Overlap { path } => write!(
                 f,
                 "{} holds some of these members and others: take the members_per_part that it was written with, or \
@@ -80,7 +142,7 @@ impl fmt::Display for PartsError {
                 "members from {start} on do not start with a part of {members}: take a multiple of it"
             ),
             Self::Cancelled(Progress { done, members, .. }) => {
-                write!(f, "cancelled after {done} of the {members} members of a part")
+                write!(f, "cancelled after {done} of {members} members")
             }
         }
     }
@@ -96,7 +158,7 @@ impl fmt::Debug for PartsError {
 impl core::error::Error for PartsError {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
-            Self::Io { source, .. } => Some(source),
+            Self::Io { source, .. } | Self::MayReplace { source, .. } => Some(source),
             Self::Parquet { source, .. } => Some(source),
             _ => None,
         }

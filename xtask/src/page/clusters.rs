@@ -8,7 +8,7 @@ use anyhow::{Context, Result, ensure};
 use xshell::{Shell, cmd};
 
 use crate::one_machine::OneMachine;
-use crate::{project, tools};
+use crate::{project, slurm, tools};
 
 /// Runs all three. Needs root, and a `python` with dalembert_scenes, dask, distributed, asyncssh and
 /// dask-jobqueue.
@@ -32,7 +32,7 @@ pub fn run(shell: &Shell) -> Result<()> {
     for other in ["ssh", "slurm"].map(|other| home.join(other)) {
         cmd!(shell, "diff -r {here} {other}").run()?;
     }
-    let parts = fs::read_dir(&here).context("the folder of parts")?.count();
+    let parts = slurm::parts(&here)?;
     println!("by workers here, over SSH and by Slurm: {parts} parts, the same bytes");
     Ok(())
 }

@@ -1,0 +1,43 @@
+//! Digests of members as they start: by them a part is told from that of other starts or fields.
+
+use std::ops::Range;
+
+use dalembert::system::Scalar;
+use dalembert::{Lagrangian, State, StepError};
+use twox_hash::XxHash3_128;
+
+/// Members of a part whose motion is looked at, at most: evenly spread.
+const SAMPLED: u64 = 64;
+
+/// Whether the motion of a member of `part` is looked at.
+pub(super) fn is_sampled(part: &Range<u64>, number: u64) -> bool {
+    let stride = (part.end - part.start).div_ceil(SAMPLED).max(1);
+    (number - part.start).is_multiple_of(stride)
+}
+
+/// The digest of a member: its start, or why it has none, and other numbers that tell it apart.
+pub(super) fn of_member<L: Lagrangian<N>, const N: usize>(
+    start: &Result<(L, State<L::Scalar, N>), StepError>,
+    others: impl FnOnce(&L, &State<L::Scalar, N>) -> Vec<f64>,
+    own: Option<u128>,
+) -> u128 {
+    let mut hash = XxHash3_128::new();
+    match start {
+        Ok((system, state)) => {
+            let entries = state.q.iter().chain(&state.p).map(|entry| entry.widen());
+            entries.chain(others(system, state)).for_each(|number| hash.write(&number.to_le_bytes()));
+        }
+        Err(error) => hash.write(error.to_string().as_bytes()),
+    }
+    if let Some(own) = own {
+        hash.write(&own.to_le_bytes());
+    }
+    hash.finish_128()
+}
+
+/// The digest of members one after the other.
+pub(super) fn of_all(members: &[u128]) -> u128 {
+    let mut hash = XxHash3_128::new();
+    members.iter().for_each(|member| hash.write(&member.to_le_bytes()));
+    hash.finish_128()
+}
