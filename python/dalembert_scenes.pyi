@@ -240,6 +240,12 @@ class Parts:
     def failed(self) -> int:
         """Members that failed, of parts written and found."""
     @property
+    def failed_before(self) -> int:
+        """Members among them of parts that were there."""
+    @property
+    def spared(self) -> int:
+        """Files of these parts that another call writes, or may be writing on another host, left alone."""
+    @property
     def paths(self) -> list[Path]:
         """The files, in order."""
     def __len__(self) -> int: ...

@@ -21,6 +21,7 @@ from henon_heiles import MEMBERS_PER_PART, part, parts, study
 
 
 def files(folder):
+    """All files: those of the parts, and one of what they have in common."""
     return {path.name: path.read_bytes() for path in Path(folder).iterdir()}
 
 
@@ -63,7 +64,7 @@ def main():
 
         with_kills = timed(study, client, members, folders[2], kill)
         expected = files(folders[0])
-        assert len(expected) == of_all and len(killed) == 3
+        assert len(expected) == of_all + 1 and len(killed) == 3
         assert files(folders[1]) == expected and files(folders[2]) == expected
         # A control: files of another study are not the same.
         study(client, MEMBERS_PER_PART - 1, Path(root, "other"))

@@ -158,6 +158,16 @@ def test_members_that_failed_are_counted_where_they_are_found(tmp_path):
     first, second = HenonHeiles().ensemble(**given), HenonHeiles().ensemble(**given)
     assert (first.written, first.found, first.failed) == (3, 0, 3)
     assert (second.written, second.found, second.failed) == (0, 3, 3) and "3 members failed" in repr(second)
+    assert (first.failed_before, second.failed_before, second.spared) == (0, 3, 0)
+    # A bit of a part, and a part under the name of another.
+    part = bytearray(second.paths[1].read_bytes())
+    part[len(part) // 3] ^= 1
+    second.paths[1].write_bytes(part)
+    with pytest.raises(ValueError, match="is damaged"):
+        HenonHeiles().ensemble(**given)
+    second.paths[0].replace(second.paths[1])
+    with pytest.raises(ValueError, match="it has been renamed"):
+        HenonHeiles().ensemble(**given)
 
 
 def test_members_that_are_watched_fail_alone(tmp_path):
@@ -225,7 +235,9 @@ def test_parts_are_files_and_those_that_are_there_are_not_computed_again(tmp_pat
     assert table["member"] == list(range(250)) and table["error"] == [None] * 250
     assert np.array_equal(np.column_stack([table["q0"], table["q1"]]), ends.q)
     assert np.array_equal(table["energy"], ends.energy)
-    written = {path.name: path.read_bytes() for path in parts.paths}
+    names = [path.name for path in parts.paths]
+    written = {path.name: path.read_bytes() for path in (tmp_path / "whole").iterdir()}
+    assert sorted(written) == ["_study.parquet", *names]
     # One is lost; the others stay as they are.
     parts.paths[1].unlink()
     again = ring.ensemble(folder=tmp_path / "whole", members_per_part=100, **given)
@@ -234,7 +246,7 @@ def test_parts_are_files_and_those_that_are_there_are_not_computed_again(tmp_pat
     for first in (200, 0, 100):
         rows = {name: given[name][first : first + 100] for name in ("q", "v")}
         one = ring.ensemble(folder=str(tmp_path / "one"), members_per_part=100, first=first, **(given | rows))
-        assert one.written == 1 and [path.name for path in one.paths] == [sorted(written)[first // 100]]
+        assert one.written == 1 and [path.name for path in one.paths] == [names[first // 100]]
     for folder in ("whole", "one"):
         assert {path.name: path.read_bytes() for path in (tmp_path / folder).iterdir()} == written
     # Others are another study's.
@@ -312,4 +324,4 @@ def test_ctrl_c_ends_an_ensemble(tmp_path):
         assert run.stdout.readline() == "interrupted\n"
         assert run.wait(10) == 0
         too_long.cancel()
-    assert not list(tmp_path.iterdir())
+    assert [path.name for path in tmp_path.iterdir()] == ["_study.parquet"]

@@ -8,7 +8,7 @@ use std::thread;
 use std::time::Duration;
 
 use dalembert_c::Number;
-use dalembert_ensemble::parts::PartsError;
+use dalembert_ensemble::parts::{self, PartsError};
 use numpy::{PyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyOSError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -65,6 +65,10 @@ pub struct Parts {
     found: u64,
     /// Members that failed, of parts written and found.
     failed: u64,
+    /// Members among them of parts that were there.
+    failed_before: u64,
+    /// Files of these parts that another call writes, or may be writing on another host, left alone.
+    spared: u64,
     /// The files, in order.
     paths: Vec<PathBuf>,
 }
@@ -76,8 +80,8 @@ impl Parts {
     }
 
     fn __repr__(&self) -> String {
-        let Self { written, found, failed, .. } = self;
-        format!("Parts: {written} written, {found} were there, {failed} members failed")
+        let Self { written, found, failed, failed_before, spared, .. } = *self;
+        format!("Parts: {}", parts::Written { written, found, failed, failed_before, spared })
     }
 }
 
@@ -213,8 +217,10 @@ pub fn run<'py>(py: Python<'py>, model: &dyn Model, given: Given<'_, 'py>) -> Py
         Ok(kept) => {
             Ok(Py::new(py, ends(py, kept, members, n, given.every.is_some())?)?.into_bound(py).into_any())
         }
-        Err(Written { written, found, failed, paths }) => {
-            Ok(Py::new(py, Parts { written, found, failed, paths })?.into_bound(py).into_any())
+        Err(Written { counts, paths }) => {
+            let parts::Written { written, found, failed, failed_before, spared } = counts;
+            let parts = Parts { written, found, failed, failed_before, spared, paths };
+            Ok(Py::new(py, parts)?.into_bound(py).into_any())
         }
     }
 }

@@ -1,7 +1,7 @@
 //! An ensemble of a system: what is asked of it, and what is kept.
 
 use core::fmt;
-use core::ops::{ControlFlow, Range};
+use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::collections::TryReserveError;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use dalembert::nalgebra::SVector;
 use dalembert::run::events::EventError;
 use dalembert::{Lagrangian, State, StepError};
 use dalembert_c::{Fields, Number};
-use dalembert_ensemble::parts::PartsError;
+use dalembert_ensemble::parts::{self, PartsError};
 use dalembert_ensemble::{Ensemble, Failure, MemberError, Outcome, Plan, Progress, Record as OfMember};
 use twox_hash::XxHash3_128;
 
@@ -170,12 +170,8 @@ impl fmt::Display for WhyFailed {
 /// Counts of the parts and of the members that failed, and the files.
 #[derive(Clone, Debug, Default)]
 pub struct Written {
-    /// Parts that were computed and written.
-    pub written: u64,
-    /// Parts that were there.
-    pub found: u64,
-    /// Members that failed, of parts written and found.
-    pub failed: u64,
+    /// The counts.
+    pub counts: parts::Written,
     /// The files, one a part.
     pub paths: Vec<PathBuf>,
 }
@@ -290,58 +286,40 @@ pub fn written<S: System<N>, const N: usize>(
     folder: &Path,
     members_per_part: u64,
 ) -> Result<Written, NoResult> {
-    let of_part = members_per_part.max(1);
     let last = asked.first + asked.members as u64;
-    let mut all = Written::default();
     let fields = fields_of_members::<S, N>(system, asked);
     let steps = by_some::<S, N>(asked).map_err(NoResult::Refused)?;
     let member = |number: u64| start::<S, N>(&fields, asked, (number - asked.first) as usize);
-    let before = AtomicU64::new(0);
     let study = Ensemble::new(member).stepped(steps).cancelled_by(&control.cancel).on_progress(
         |Progress { done, .. }| {
-            control.done.store(before.load(Ordering::Relaxed) + done, Ordering::Relaxed);
+            control.done.store(done, Ordering::Relaxed);
             ControlFlow::Continue(())
         },
     );
-    for first in (asked.first..last).step_by(usize::try_from(of_part).unwrap_or(usize::MAX)) {
-        if control.cancel.load(Ordering::Relaxed) {
-            return Err(NoResult::Cancelled);
-        }
-        let part = first..last.min(first.saturating_add(of_part));
-        let starts = starts_of(&fields, asked, &part);
-        let parts = study.parts(folder).members_per_part(of_part).metadata("dalembert.starts", starts);
-        let written = parts.write(part.clone()).map_err(|error| match error {
-            PartsError::Cancelled(_) => NoResult::Cancelled,
-            error => NoResult::Parts(error),
-        })?;
-        all.written += written.written;
-        all.found += written.found;
-        all.failed += written.failed;
-        all.paths.extend(parts.paths(part.clone()));
-        before.fetch_add(part.end - part.start, Ordering::Relaxed);
-        control.done.store(before.load(Ordering::Relaxed), Ordering::Relaxed);
-    }
-    Ok(all)
+    let digest = |number: u64| digest(&fields, asked, (number - asked.first) as usize);
+    let parts = study.parts(folder).members_per_part(members_per_part).identified_by(digest);
+    let counts = parts.write(asked.first..last).map_err(|error| match error {
+        PartsError::Cancelled(_) => NoResult::Cancelled,
+        error => NoResult::Parts(error),
+    })?;
+    Ok(Written { counts, paths: parts.paths(asked.first..last).collect() })
 }
 
-/// The hash that tells the members of a part from others: of their fields, starts and inputs.
-fn starts_of<F: Fields>(fields: &[F], asked: &Asked<'_>, part: &Range<u64>) -> String {
+/// The hash that tells a member from others: of its fields, start and input.
+fn digest<F: Fields>(fields: &[F], asked: &Asked<'_>, member: usize) -> u128 {
     let mut hash = XxHash3_128::new();
     hash.write(&[u8::from(asked.is_velocity)]);
     hash.write(&asked.time.to_le_bytes());
-    for number in part.clone() {
-        let member = (number - asked.first) as usize;
-        let fields = &fields[if fields.len() == 1 { 0 } else { member }];
-        for field in 0..F::FIELDS.len() {
-            for entry in (0..).map_while(|index| fields.entry(field, index)) {
-                hash.write(&bytes(entry));
-            }
-        }
-        for row in [asked.q, asked.other, asked.inputs] {
-            row.of(member).iter().for_each(|number| hash.write(&number.to_le_bytes()));
+    let fields = &fields[if fields.len() == 1 { 0 } else { member }];
+    for field in 0..F::FIELDS.len() {
+        for entry in (0..).map_while(|index| fields.entry(field, index)) {
+            hash.write(&bytes(entry));
         }
     }
-    format!("{:032x}", hash.finish_128())
+    for row in [asked.q, asked.other, asked.inputs] {
+        row.of(member).iter().for_each(|number| hash.write(&number.to_le_bytes()));
+    }
+    hash.finish_128()
 }
 
 fn bytes(number: Number) -> [u8; 8] {
