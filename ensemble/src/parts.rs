@@ -38,12 +38,13 @@
 //! first call puts it down, and another study is refused, if it begins at the same moment too. It has the
 //! columns of the parts and no rows, so that readers of a whole folder may read it or leave it out.
 //!
-//! **A part is of its members.** Its metadata hold the same, its range, and a digest of its members' starts
-//! and columns; of 64 members, evenly spread, also of the state after the first step. A call that finds a
-//! part makes its members anew, does not step them further, and compares. Fields that differ in members
-//! between those 64 alone and stand in no column are not seen: say them by
+//! **A part is of its members.** Its metadata hold the same, its range, and a digest of its members' starts,
+//! columns, and derivatives of L; of 64 members, evenly spread, also of the state after the first step. A
+//! call that finds a part makes its members anew, steps them no further, and compares. A field that stands in
+//! no column, and acts later, or in R or f of members between those 64 alone, is not seen: say it by
 //! [`identified_by`](Parts::identified_by). Nor is a closure of [`stop_when`](Study::stop_when): say by
-//! `metadata` what it waits for.
+//! `metadata` what it waits for. Bits are compared: a machine whose sine rounds otherwise does not go on with
+//! the parts of another.
 //!
 //! **A part is what was written.** Its metadata hold a digest of all bytes of the file too, of 128 bits
 //! (XXH3). A part that is found is read and compared once; of a flipped bit, a cut file, or a part under the

@@ -95,7 +95,8 @@ impl fmt::Display for PartsError {
             ),
             Self::AnotherStudy { path, key, .. } if key == STARTS => write!(
                 f,
-                "{} is another study's: its members have other fields or starts; write into another folder",
+                "{} is another study's: its members have other fields or starts, or another machine has rounded them \
+                 otherwise; write into another folder",
                 path.display()
             ),
             Self::AnotherStudy { path, key, expected, found } => {

@@ -15,7 +15,8 @@ pub(super) fn is_sampled(part: &Range<u64>, number: u64) -> bool {
     (number - part.start).is_multiple_of(stride)
 }
 
-/// The digest of a member: its start, or why it has none, and other numbers that tell it apart.
+/// The digest of a member: its start and the derivatives of L there, or why it has none, and other numbers
+/// that tell it apart.
 pub(super) fn of_member<L: Lagrangian<N>, const N: usize>(
     start: &Result<(L, State<L::Scalar, N>), StepError>,
     others: impl FnOnce(&L, &State<L::Scalar, N>) -> Vec<f64>,
@@ -24,8 +25,13 @@ pub(super) fn of_member<L: Lagrangian<N>, const N: usize>(
     let mut hash = XxHash3_128::new();
     match start {
         Ok((system, state)) => {
-            let entries = state.q.iter().chain(&state.p).map(|entry| entry.widen());
-            entries.chain(others(system, state)).for_each(|number| hash.write(&number.to_le_bytes()));
+            let of_l = state.velocity(system).map(|v| system.lagrangian_gradient(&state.q, &v));
+            let of_l = of_l.iter().flat_map(|of_l| of_l.d1.iter().chain(&of_l.d2));
+            let entries = state.q.iter().chain(&state.p).chain(of_l).map(|entry| entry.widen());
+            let numbers = entries.chain(others(system, state));
+            // The sign of a NaN is that of the machine.
+            let numbers = numbers.map(|number| if number.is_nan() { f64::NAN } else { number });
+            numbers.for_each(|number| hash.write(&number.to_le_bytes()));
         }
         Err(error) => hash.write(error.to_string().as_bytes()),
     }

@@ -96,8 +96,9 @@ fn of_call_with_deletion(part: Option<u64>) -> &'static str {
     let folder = folder();
     let path = part.map(|part| folder.join(name(part)));
     let is_deleted = AtomicBool::new(false);
-    let member =
-        |number: u64| Ok((Pendulum { r: 0.0 }, State { q: [1e-3 * number as f64].into(), p: [0.5].into() }));
+    let member = |number: u64| {
+        Ok((Pendulum { g: 1.0, r: 0.0 }, State { q: [1e-3 * number as f64].into(), p: [0.5].into() }))
+    };
     let study = Ensemble::new(member).by(Midpoint, 0.1).steps(PLAIN.steps).on_progress(|progress| {
         let is_written = progress.done >= 5 * OF_PART;
         if is_written && path.as_ref().is_some_and(|path| fs::remove_file(path).is_ok()) {

@@ -15,8 +15,8 @@ use dalembert_ensemble::Ensemble;
 use dalembert_ensemble::parts::{PartsError, Written};
 
 #[rayleigh_system]
-pub fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
-    (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+pub fn pendulum(q: [f64; 1], v: [f64; 1], g: f64, r: f64) -> (f64, f64) {
+    (0.5 * v[0] * v[0] + g * q[0].cos(), 0.5 * r * v[0] * v[0])
 }
 
 /// A call.
@@ -27,8 +27,8 @@ pub struct Call {
     pub steps: u64,
     pub of_part: u64,
     pub members: u64,
-    /// The member whose r is this much more, if any is.
-    pub odd: Option<(u64, f64)>,
+    /// The member whose g and r are so much more, if any is.
+    pub odd: Option<(u64, [f64; 2])>,
     /// Whether r is a column.
     pub column: bool,
 }
@@ -51,9 +51,9 @@ impl Call {
     pub fn write(&self, folder: &Path) -> Result<Written, PartsError> {
         let Self { p, r, steps, of_part, members, odd, column } = *self;
         let member = |number: u64| -> Result<(Pendulum, State<f64, 1>), StepError> {
-            let more = odd.filter(|(odd, _)| *odd == number).map_or(0.0, |(_, more)| more);
+            let [more_g, more_r] = odd.filter(|(odd, _)| *odd == number).map_or([0.0; 2], |(_, more)| more);
             let start = State { q: [1e-3 * number as f64].into(), p: [p].into() };
-            Ok((Pendulum { r: r + more }, start))
+            Ok((Pendulum { g: 1.0 + more_g, r: r + more_r }, start))
         };
         let study = Ensemble::new(member).by(Midpoint, 0.1).steps(steps);
         let parts = study.parts(folder).members_per_part(of_part);
