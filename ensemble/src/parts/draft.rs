@@ -13,6 +13,14 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::error::PartsError;
 use super::names;
 
+/// Drafts that are written of a file, where something else removes them.
+pub(super) const TRIES: usize = 4;
+
+/// The error where all of them were removed.
+pub(super) fn removed() -> io::Error {
+    io::Error::new(io::ErrorKind::NotFound, "something else removes its drafts, files that begin with a dot")
+}
+
 /// A file that is not in its place.
 pub(super) struct Draft {
     pub(super) file: File,

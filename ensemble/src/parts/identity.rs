@@ -1,18 +1,14 @@
 //! The study that a folder is of: a file with its columns, no rows, and what tells it from others as
 //! metadata, put down by whoever is first, and never changed.
 
-use std::io;
 use std::path::Path;
 
-use super::draft::{Draft, Put};
+use super::draft::{self, Draft, Put};
 use super::error::PartsError;
 use super::metadata::Entries;
 use super::names::STUDY;
 use super::table::Table;
 use super::{encoding, found};
-
-/// Drafts that are written, where others keep removing them.
-pub(super) const TRIES: usize = 4;
 
 /// Puts down that `folder` is of the study `described`, with the columns of a table that has no rows.
 ///
@@ -20,7 +16,7 @@ pub(super) const TRIES: usize = 4;
 pub(super) fn put_down(folder: &Path, empty: &Table, described: &Entries) -> Result<(), PartsError> {
     let path = folder.join(STUDY);
     let io = |source| PartsError::Io { path: path.clone(), source };
-    for _ in 0..TRIES {
+    for _ in 0..draft::TRIES {
         if path.try_exists().map_err(io)? {
             return found::open(&path, described).map(drop);
         }
@@ -30,5 +26,5 @@ pub(super) fn put_down(folder: &Path, empty: &Table, described: &Entries) -> Res
             return Ok(());
         }
     }
-    Err(io(io::ErrorKind::NotFound.into()))
+    Err(io(draft::removed()))
 }

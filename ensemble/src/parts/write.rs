@@ -1,7 +1,6 @@
 //! The call that writes what is missing: [`Parts::write`].
 
 use std::fs;
-use std::io;
 use std::ops::Range;
 use std::panic::resume_unwind;
 use std::path::Path;
@@ -13,7 +12,7 @@ use rayon::prelude::*;
 use super::draft::{self, Draft, Put};
 use super::error::PartsError;
 use super::found::Found;
-use super::identity::{self, TRIES};
+use super::identity;
 use super::listing::{Listing, have_common};
 use super::metadata::Entries;
 use super::table::Table;
@@ -198,7 +197,7 @@ where
 /// Fails where another is there that is not equal.
 fn put(path: &Path, table: &Table, metadata: &Entries) -> Result<bool, PartsError> {
     let io = |source| PartsError::Io { path: path.to_owned(), source };
-    for _ in 0..TRIES {
+    for _ in 0..draft::TRIES {
         let mut draft = Draft::of(path).map_err(io)?;
         let digest = encoding::write(&mut draft.file, path, table, metadata)?;
         match draft.put()? {
@@ -210,5 +209,5 @@ fn put(path: &Path, table: &Table, metadata: &Entries) -> Result<bool, PartsErro
             Put::Removed => {}
         }
     }
-    Err(io(io::ErrorKind::NotFound.into()))
+    Err(io(draft::removed()))
 }

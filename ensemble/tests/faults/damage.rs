@@ -19,19 +19,20 @@ fn name(k: u64) -> String {
     format!("members-{:012}-{:012}.parquet", OF_PART * k, OF_PART * (k + 1))
 }
 
-/// A call on the files of a folder with a part changed; control: whether the check of the footer alone, of
-/// its metadata, lets it pass.
+/// A call on the files of a folder of which one is changed, that of the study or a part. Control: whether the
+/// check of the footer alone, of its metadata, lets it pass.
 fn changed(tries: u32, seed: u64, change: impl Fn(&mut StdRng, &mut Vec<u8>)) -> Trials {
     let mut random = StdRng::seed_from_u64(seed);
     let whole = PLAIN.files();
     let mut trials = Trials::default();
     while trials.tries() < tries {
-        let (mut there, name) = (whole.clone(), name(random.random_range(0..6)));
-        let part = there.get_mut(&name).unwrap();
-        change(&mut random, part);
-        if *part == whole[&name] {
+        let mut there = whole.clone();
+        let Some((name, file)) = there.iter_mut().nth(random.random_range(0..whole.len())) else { continue };
+        change(&mut random, file);
+        if *file == whole[name] {
             continue;
         }
+        let name = name.clone();
         let folder = folder_of(&there);
         let result = PLAIN.write(&folder);
         trials.hear(result.as_ref().map_or_else(kind, |_| "ok"));
