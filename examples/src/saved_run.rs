@@ -13,7 +13,11 @@ use std::fmt::Debug;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail, ensure};
+use dalembert::nalgebra::SVector;
+use dalembert::system::ActingForce;
 use dalembert::{Checkpoint, Discrete, Discretise, State, Trajectory};
+use rand::{RngExt as _, SeedableRng as _};
+use rand_chacha::ChaCha8Rng;
 
 use files::{Digest, Files, ROWS, Saved};
 
@@ -62,7 +66,7 @@ impl SavedRun {
         row: impl Fn(f64, &State<f64, N>) -> String,
     ) -> Result<State<f64, N>>
     where
-        L: Discrete<R, N, Scalar = f64> + Debug,
+        L: Discrete<R, N, Scalar = f64> + ActingForce<N> + Debug,
         R: Copy,
     {
         let Schedule { row: to_row, rows_to_checkpoint, end } = schedule;
@@ -114,8 +118,11 @@ impl SavedRun {
     }
 }
 
-/// Which run this is, in words. What words do not tell of the system shows in its first steps, and what rows
-/// say in the one of the start.
+/// States at which a system is asked for its forces, to tell it from others.
+const SAMPLES: usize = 2048;
+
+/// Which run this is, in words. What words do not tell of the system shows in its first steps and in its
+/// forces at states and times around the start, and what rows say in the one of the start.
 fn identity<L, R, const N: usize>(
     (system, rule): (&L, R),
     (h, start): (f64, State<f64, N>),
@@ -123,7 +130,7 @@ fn identity<L, R, const N: usize>(
     first_row: &str,
 ) -> String
 where
-    L: Discrete<R, N, Scalar = f64> + Debug,
+    L: Discrete<R, N, Scalar = f64> + ActingForce<N> + Debug,
 {
     let mut digest = Digest::default();
     digest.add(first_row.as_bytes());
@@ -138,12 +145,38 @@ where
             Err(error) => digest.add(format!("{error:?}").as_bytes()),
         }
     }
+    add_forces(&mut digest, system, &start);
     format!(
         "{} = {system:?} by {}, h = {h:?}, from q = {:?}, p = {:?}; a row every {row} steps, a checkpoint every {rows_to_checkpoint} rows; \
-         first steps {digest}",
+         first steps and forces {digest}",
         type_name::<L>(),
         type_name::<R>(),
         start.q.as_slice(),
         start.p.as_slice(),
     )
+}
+
+/// Adds p, ∂L/∂q and f_L at random states and times of all sizes: an edited model differs in some.
+fn add_forces<L: ActingForce<N, Scalar = f64>, const N: usize>(
+    digest: &mut Digest,
+    system: &L,
+    start: &State<f64, N>,
+) {
+    let mut random = ChaCha8Rng::seed_from_u64(6);
+    let around = start.velocity(system).unwrap_or_else(|_| SVector::zeros());
+    for _ in 0..SAMPLES {
+        let mut near = |center: &SVector<f64, N>| {
+            let reach = 10.0_f64.powf(random.random_range(-3.0..3.0));
+            center.map(|entry| entry + reach * random.random_range(-1.0..1.0))
+        };
+        let (q, v) = (near(&start.q), near(&around));
+        let time = 10.0_f64.powf(random.random_range(-3.0..6.0));
+        let (l, force) =
+            system.later(time, |system| (system.lagrangian_gradient(&q, &v), system.acting_force(&q, &v)));
+        for entry in l.d1.iter().chain(&l.d2).chain(&force) {
+            // The sign of a NaN is that of the machine.
+            let entry = if entry.is_nan() { f64::NAN } else { *entry };
+            digest.add(&entry.to_bits().to_le_bytes());
+        }
+    }
 }

@@ -2,6 +2,7 @@
 //! broken.
 
 mod at_random;
+mod edited;
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};

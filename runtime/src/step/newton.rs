@@ -182,7 +182,8 @@ pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         } else {
             let size = weighted(&residual, &weights);
             let contraction = size / last_size;
-            if !(contraction <= slow) && !(size <= S::one() && contraction <= S::constant(SLOW)) {
+            let is_slow_at_floor = size <= S::one() && contraction <= S::constant(SLOW);
+            if !(contraction <= slow || is_slow_at_floor) {
                 break;
             }
             (last_size, slow) = (size, contraction * S::constant(0.5));

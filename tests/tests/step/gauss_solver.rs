@@ -451,3 +451,30 @@ fn stages_in_more_lanes_than_there_are_stages_are_the_same_bit_by_bit() {
     lanes_do_not_mix::<6>();
     lanes_do_not_mix::<7>();
 }
+
+/// Steps far below what the motion asks for, down to where h v is no last place of q.
+#[test]
+fn the_smallest_steps_are_taken() {
+    let mut random = StdRng::seed_from_u64(41);
+    for _ in 0..60 {
+        let mut within = |range: f64| random.random_range(-range..range);
+        let system = DoublePendulum::FREE;
+        let start =
+            State::from_velocity(&system, [within(2.0), within(2.0)], [within(6.0), within(6.0)]).unwrap();
+        let size = start.q.amax().max(start.p.amax());
+        for h in [1e-10, 1e-12, 1e-13, 1e-14, 1e-15, 1e-16, 1e-18, 1e-30] {
+            let ends = [
+                system.by(Gauss::<1>, h).run(start).nth(19),
+                system.by(Gauss::<2>, h).run(start).nth(19),
+                system.by(Gauss::<4>, h).run(start).nth(19),
+                system.by(Gauss::<8>, h).run(start).nth(19),
+            ];
+            for end in ends {
+                let end = end.unwrap().unwrap_or_else(|error| panic!("{h:e}, {start:?}: {error}")).state;
+                // 20 steps move q and p by no more than rounding and the rate of this motion.
+                let moved = (end.q - start.q).amax().max((end.p - start.p).amax());
+                assert!(moved <= 20.0 * (200.0 * h + 4.0 * f64::EPSILON * size), "{h:e}: {moved:e}");
+            }
+        }
+    }
+}

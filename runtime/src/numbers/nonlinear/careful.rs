@@ -97,8 +97,7 @@ pub(super) fn careful<S: Precision>(
         if last.size.is_none() {
             let counts = Counts { iterations: iterations + 1, damped, last_correction: largest(correction) };
             sum(last.v, trial, -S::one(), correction);
-            let found =
-                verified(of, (last.v, Matrix::Present), counts, Rounding::OfTerms, root, room.inner());
+            let found = verified(of, (last.v, Matrix::Present), counts, Rounding::Terms, root, room.inner());
             if let Some(solution) = found {
                 return Ok(solution);
             }
@@ -127,7 +126,7 @@ pub(super) fn careful<S: Precision>(
             of.evaluate(trial, residual);
             let counts = Counts { iterations, damped, last_correction: largest(last.correction) };
             if let Some(solution) =
-                verified(of, (trial, Matrix::Present), counts, Rounding::OfFloor, root, room.inner())
+                verified(of, (trial, Matrix::Present), counts, Rounding::Floor, root, room.inner())
             {
                 return Ok(solution);
             }

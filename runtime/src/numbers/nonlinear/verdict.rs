@@ -44,11 +44,11 @@ pub(super) struct Counts<S> {
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Rounding {
     /// The floor alone.
-    OfFloor,
+    Floor,
     /// Terms that cancel as well.
-    OfTerms,
+    Terms,
     /// Any: of a residual that has stopped falling.
-    OfAll,
+    Any,
 }
 
 /// The solution at `v`, where the Newton matrix is `matrix`; nothing if it is none. Where more than the floor
@@ -70,7 +70,7 @@ pub(super) fn verified<S: Precision>(
     estimated_floor(of, matrix, v, floor, room.inner());
     copy(estimated, floor);
     let held = held_against(remaining, floor);
-    if !held.2 && rounding == Rounding::OfFloor || !last_correction.is_finite() {
+    if !held.2 && rounding == Rounding::Floor || !last_correction.is_finite() {
         return None;
     }
     copy(root.v, v);
@@ -80,7 +80,7 @@ pub(super) fn verified<S: Precision>(
         is_sensible_at_rest(of, floor, terms, room.inner())
     } else {
         is_explained(of, v, remaining, floor, rounding, room.inner())
-            || MEASURES_NOISE && rounding == Rounding::OfAll && {
+            || MEASURES_NOISE && rounding == Rounding::Any && {
                 is_polished(of, root.v, remaining, estimated, room.inner()) && {
                     of.momenta(of.q, root.v, root.p0, root.p1, room.inner());
                     // Not that of an iterate on the way.
@@ -180,7 +180,7 @@ fn is_explained<S: Precision>(
     if held_against(remaining, floor).2 {
         return is_sensible_at_rest(of, floor, terms, room);
     }
-    if rounding == Rounding::OfTerms {
+    if rounding == Rounding::Terms {
         return false;
     }
     // Far above what any sensible floor explains, no last places are moved: of a step that fails, that would
@@ -268,9 +268,9 @@ pub(super) fn stagnated<S: Precision>(
     mut room: Room<'_, S>,
 ) -> Option<Solved<S>> {
     // One component that rounding holds up can hide that the step has brought the others down.
-    let mut found = verified(of, (trial, Matrix::Present), counts, Rounding::OfAll, root, room.inner());
+    let mut found = verified(of, (trial, Matrix::Present), counts, Rounding::Any, root, room.inner());
     if found.is_none() && !lower {
-        found = verified(of, (last, Matrix::Before), counts, Rounding::OfAll, root, room.inner());
+        found = verified(of, (last, Matrix::Before), counts, Rounding::Any, root, room.inner());
     }
     // Where noise is measured, the matrix is evaluated elsewhere.
     if MEASURES_NOISE && found.is_none() {
@@ -328,15 +328,8 @@ mod tests {
         let counts = Counts { iterations: 1, damped: 0, last_correction };
         let mut root = Root { v: &mut [0.0], p0: &mut [0.0], p1: &mut [0.0] };
         let buffer = &mut [0.0; VECTORS];
-        verified(
-            &mut of,
-            (&[1.0], Matrix::Present),
-            counts,
-            Rounding::OfFloor,
-            &mut root,
-            Room::new(buffer, 1),
-        )
-        .is_some()
+        verified(&mut of, (&[1.0], Matrix::Present), counts, Rounding::Floor, &mut root, Room::new(buffer, 1))
+            .is_some()
     }
 
     #[test]
@@ -379,7 +372,7 @@ mod tests {
                 for _ in 0..from_rest + 7 {
                     room.vector();
                 }
-                verified(&mut of, (&[1.0; 2], Matrix::Present), counts, Rounding::OfAll, &mut root, room);
+                verified(&mut of, (&[1.0; 2], Matrix::Present), counts, Rounding::Any, &mut root, room);
             })
             .is_ok()
         };
