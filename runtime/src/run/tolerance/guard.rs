@@ -1,5 +1,8 @@
 //! The guard along the run of a choice.
 
+mod look;
+mod schedule;
+
 use nalgebra::SVector;
 
 use super::estimate::{Estimate, Since};
@@ -12,45 +15,11 @@ use super::unresolved::Unresolved;
 use super::{
     Breach, Choice, Chosen, LastStep, MethodStep, Methods, OffersMethods, ToleranceError, local_error,
 };
-use crate::numbers::Scalar;
 use crate::run::present::at_present;
 use crate::run::{Run, Samples};
 use crate::step::{State, Step, StepError};
 use crate::system::ActingForce;
-
-/// Steps between two looks at most.
-const STRIDE: u64 = 40;
-
-/// Runs of fewer steps are looked at in every step, unless the steps between show what they err by.
-const FEW: u64 = 100;
-
-/// Looks at a run whose steps show that, where these are more than one in [`STRIDE`].
-const LOOKS: u64 = 12;
-
-/// The share of the run's cost that the motion's derivatives along it may take.
-const SHARE: f64 = 0.05;
-
-/// Steps from one energy to the next at least, after as many as lie between two looks.
-const ENERGY: u64 = 10;
-
-/// The estimate, over the tolerance, at which a breach is reported: as a rule the estimate is above the
-/// error, by up to a factor of 2.
-const REPORTED: f64 = 1.35;
-
-/// Of so many coordinates errors are followed in every turn, whatever it costs.
-const RESOLVED: usize = 3;
-
-/// The cost of the motion's derivative at a state, in evaluations: two, and the algebra of N×N matrices
-/// beside forces of some N terms.
-fn derivatives(n: usize) -> f64 {
-    2.0 + 1.3 * (n * n) as f64 + 4.0 * n as f64
-}
-
-/// A step is looked at where the motion has become rougher than where it was looked at last, by this factor.
-const ROUGHER: f64 = 2.0;
-
-/// The share of the tolerance above which a change of the force with time over one step is looked at.
-const STROKE: f64 = 0.05;
+use schedule::{RESOLVED, ROUGHER, derivatives};
 
 /// The run of a [`Choice`] over its time: an iterator over steps, that ends after the last step or an error.
 ///
@@ -352,174 +321,6 @@ where
         self.guard.twin = (self.guard.state, self.guard.taken);
         self.guard.carried = [self.guard.taken, self.guard.taken + 1, self.guard.taken];
         self.guard.looks[1] = self.guard.taken + 1;
-    }
-
-    /// The next look: at no period.
-    fn schedule_look(&mut self) {
-        let Chosen { steps, method, .. } = self.choice.chosen;
-        let stride = if method.is_gauss() && !self.guard.estimate.is_timed() {
-            (steps / LOOKS).clamp(1, STRIDE)
-        } else if steps < FEW {
-            1
-        } else {
-            STRIDE
-        };
-        let next = self.guard.taken + 1 + (stride - 1) / 2 + self.guard.random.draw() % stride;
-        self.guard.looks[1] = next.min(self.choice.chosen.steps);
-    }
-
-    /// The evaluations that the derivatives may take for each step.
-    fn affordable(&self) -> f64 {
-        let share = if N <= RESOLVED { f64::INFINITY } else { SHARE };
-        share * self.choice.chosen.evaluations_per_step
-    }
-
-    fn schedule_derivatives(&mut self) {
-        let angle = self.guard.estimate.speed * self.step_size();
-        let resolved = if angle > 0.0 { self.guard.estimate.angle() / angle } else { f64::INFINITY };
-        // Seldom where the step is long already; twice the last distance at most, as a period may look like
-        // rest.
-        let last = (self.guard.taken - self.guard.carried[2]).max(1) as f64;
-        let resolved = resolved.min(2.0 * last);
-        let (least, most) = if self.guard.estimate.is_coarse() {
-            (derivatives(N) / (3.0 * SHARE * self.choice.chosen.evaluations_per_step), 4 * STRIDE)
-        } else {
-            (1.0, STRIDE)
-        };
-        let stride = resolved.max(least).clamp(1.0, most as f64);
-        self.guard.carried[1] = self.guard.taken + stride as u64;
-    }
-
-    /// The largest fourth difference of q.
-    fn fourth_difference(&mut self) -> f64 {
-        let q = self.guard.state.q;
-        let [a, b, c, d] = self.guard.recent;
-        let (four, six) = (L::Scalar::constant(4.0), L::Scalar::constant(6.0));
-        let difference = ((q + d) - (a + c) * four + b * six).amax();
-        self.guard.recent = [q, a, b, c];
-        if self.guard.taken >= self.guard.segment.steps[0] + 4 { difference.widen() } else { 0.0 }
-    }
-
-    /// Carries the error by a twin to the present state, where that is far enough or must be.
-    fn carry_by_twin(&mut self, must: bool) {
-        let Choice { system, methods, .. } = self.choice;
-        let step_size = self.step_size();
-        let (from, taken) = self.guard.twin;
-        let steps = self.guard.taken - taken;
-        if must || steps >= self.guard.estimate.twin_stride(step_size, STRIDE) {
-            let span = [self.time() - step_size * steps as f64, step_size * steps as f64];
-            self.guard.estimate.carry_by_twin(
-                system,
-                methods,
-                &from,
-                span,
-                &self.guard.scale,
-                &mut self.twin,
-            );
-            self.guard.twin = (self.guard.state, self.guard.taken);
-        }
-    }
-
-    /// Carries the error on to the present state.
-    fn carry(&mut self) {
-        let steps = (self.guard.taken - self.guard.carried[0]) as f64;
-        let Choice { system, chosen, .. } = self.choice;
-        let Chosen { roundings, .. } = chosen;
-        let is_energy = self.choice.chosen.steps < FEW
-            || self.guard.taken <= STRIDE
-            || self.guard.taken >= self.guard.energy + ENERGY;
-        if is_energy {
-            self.guard.energy = self.guard.taken;
-        }
-        let is_driven = self.guard.estimate.is_driven();
-        let since = Since {
-            steps,
-            roundings,
-            passed: self.guard.unresolved.passed(is_driven),
-            foreseen: (self.guard.taken - self.guard.looks[0]).max(1) as f64 * self.guard.local,
-            affordable: steps * self.affordable(),
-            is_energy,
-            ahead: chosen.time - self.time(),
-        };
-        let time = self.time();
-        self.guard.estimate.carry(system, &self.guard.state, time, &self.guard.scale, &since);
-        self.guard.carried[2] = self.guard.carried[0];
-        self.guard.carried[0] = self.guard.taken;
-        self.schedule_derivatives();
-    }
-
-    /// Holds the last step, from `before`, against its halves; halves that cannot be taken are a breach.
-    ///
-    /// `unresolved` is what a Gauss method has left so. A step that is struck by a force errs as by a jump.
-    fn look(&mut self, before: &State<L::Scalar, N>, unresolved: Option<[f64; 2]>, is_struck: bool) {
-        let h = self.step_size();
-        let elapsed = self.guard.segment.time(self.guard.taken - 1);
-        self.half.forget();
-        let halves = self.half.advance(self.choice.system, elapsed, before).and_then(|first| {
-            let second = self.half.advance(self.choice.system, elapsed + 0.5 * h, &first.step.state)?;
-            self.guard.looked += first.evaluations + second.evaluations;
-            Ok(second.step.state)
-        });
-        let steps = (self.guard.taken - self.guard.looks[0]) as f64;
-        let Ok(halves) = halves else {
-            self.guard.hardest.add(before, [elapsed, h], f64::INFINITY, [1.0, steps]);
-            self.report(f64::INFINITY);
-            return;
-        };
-        let order = if is_struck { 1 } else { self.choice.chosen.method.order() };
-        let local = local_error(order, &self.guard.state, &halves);
-        let over_a_turn = self.guard.estimate.over_a_turn(&local, &self.guard.scale);
-        let size = self.guard.scale.largest(&over_a_turn);
-        let unseen = match unresolved {
-            Some(_) if size == 0.0 => 0.0,
-            Some(coefficients) => {
-                let is_driven = self.guard.estimate.is_driven();
-                self.guard.unresolved.look(coefficients, over_a_turn, &self.guard.scale, is_driven) / size
-            }
-            // Those not looked at lie between the last one that was and this one.
-            None if size > 0.0 => 0.5 * (steps - 1.0) * (1.0 + (self.guard.local / size).min(steps)),
-            None => steps - 1.0,
-        };
-        self.guard.estimate.add(&local, unseen);
-        self.guard.hardest.add(before, [elapsed, h], size, [1.0 + unseen, steps]);
-        self.guard.local = size;
-        self.guard.looks[0] = self.guard.taken;
-        self.schedule_look();
-    }
-
-    /// Whether the force, where it changes with time, has done so within the last step as it did not before:
-    /// between the nodes of the step.
-    fn is_struck(&mut self) -> bool {
-        let Choice { system, chosen, .. } = self.choice;
-        let Chosen { tolerance, evaluations_per_step, is_watchful, .. } = chosen;
-        let step_size = self.step_size();
-        let is_seldom = !is_watchful
-            && self.choice.chosen.steps >= FEW
-            && 4.0 > SHARE * evaluations_per_step * (1 + self.guard.taken % 8) as f64;
-        if !self.guard.estimate.is_timed() || is_seldom {
-            return false;
-        }
-        // In the middle of the step, and where it ends: what strikes there is shared by two steps.
-        let change = [0.5, 0.0].map(|share| {
-            let time = self.time() - share * step_size;
-            self.guard.estimate.change_of_force(system, time)
-        });
-        let change = change[0].max(change[1]);
-        let is_more = change > ROUGHER * self.guard.stroke;
-        // Who bounds the step expects more than one.
-        self.guard.stroke = if is_watchful { change } else { self.guard.stroke.max(change) };
-        is_more && change * step_size * self.guard.scale.weight() > STROKE * tolerance
-    }
-
-    fn report(&mut self, expected: f64) {
-        let tolerance = self.choice.chosen.tolerance;
-        let size = if expected.is_nan() { f64::INFINITY } else { expected };
-        self.guard.largest = self.guard.largest.max(size);
-        if self.guard.breach.is_none() && size > REPORTED * tolerance {
-            let share = (self.guard.taken as f64 / self.choice.chosen.steps as f64) * (tolerance / expected);
-            let instead = tolerance * share.min(0.5);
-            self.guard.breach = Some(Breach { time: self.time(), expected, tolerance, instead });
-        }
     }
 }
 
