@@ -155,7 +155,6 @@ pub(crate) struct Reached<S, const N: usize> {
 /// rounding: at rest h v̄ may be less than the last place of q, which forces then do not see. On the way
 /// residuals are weighed by the floor at the guess; the root is held against its own.
 #[inline]
-#[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a contraction that is NaN must fail the comparison")]
 pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     kind: Equation,
     evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
@@ -183,6 +182,7 @@ pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
             let size = weighted(&residual, &weights);
             let contraction = size / last_size;
             let is_slow_at_floor = size <= S::one() && contraction <= S::constant(SLOW);
+            // A contraction that is NaN is none.
             if !(contraction <= slow || is_slow_at_floor) {
                 break;
             }
