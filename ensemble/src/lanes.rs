@@ -3,14 +3,14 @@
 use core::ops::ControlFlow;
 
 use dalembert::State;
-use dalembert::run::{InLanes as LanesBy, LaneRuns};
+use dalembert::run::{InLanes as LanesBy, LaneRuns, Stop};
 use dalembert::step::MethodOf;
 use dalembert::system::Scalar;
 use multiversion::multiversion;
 use multiversion::target::match_target;
 
 use crate::member::{Failure, Record};
-use crate::stepping::{Plan, Slot, Stepping};
+use crate::stepping::{NoEnd, Plan, Slot, Stepping, failed};
 
 /// As many members at a time as the machine has lanes for: [`Study::in_lanes`](crate::Study::in_lanes).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,8 +80,9 @@ impl<L: LanesBy<M, N>, M, const N: usize, const W: usize> Versioned for Advance<
 /// stay in the cache.
 const MOST_BYTES: usize = 256 * 1024;
 
-/// Steps after which it is asked whether a lane has failed, however far its next record is.
-const LONG: u64 = 1 << 12;
+/// Steps after which it is asked whether a lane has failed, and whether all are to end, however far the next
+/// record is.
+const LONG: u64 = 512;
 
 /// Members at a time, of at most so many: 8, or as many more as the method takes while their runs stay small.
 const fn width<L: LanesBy<M, N>, M, const N: usize>(most: usize) -> usize {
@@ -121,7 +122,8 @@ where
         &self,
         members: &mut [Slot<L, V, N>],
         observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
-    ) {
+        stop: Stop<'_>,
+    ) -> ControlFlow<()> {
         let Plan { steps, every, .. } = self.plan;
         let next = if every.is_some() { 0 } else { steps };
         let waiting = members.iter_mut().filter_map(|Slot { number, start, value, failure }| {
@@ -140,11 +142,11 @@ where
         // Known when compiled, but for the machine, so that what never runs is not.
         let widest = in_widest(Widest);
         if const { width::<L, M, N>(32) == 32 } && widest >= 32 {
-            self.advance_all::<L, V, N, 32>(waiting, observe);
+            self.advance_all::<L, V, N, 32>(waiting, observe, stop)
         } else if const { width::<L, M, N>(16) == 16 } && widest >= 16 {
-            self.advance_all::<L, V, N, 16>(waiting, observe);
+            self.advance_all::<L, V, N, 16>(waiting, observe, stop)
         } else {
-            self.advance_all::<L, V, N, 8>(waiting, observe);
+            self.advance_all::<L, V, N, 8>(waiting, observe, stop)
         }
     }
 
@@ -164,13 +166,15 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         &self,
         mut waiting: impl Iterator<Item = OnItsWay<'s, L, V, N>>,
         observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
-    ) where
+        stop: Stop<'_>,
+    ) -> ControlFlow<()>
+    where
         L: LanesBy<M, N, Scalar = S> + 's,
         M: MethodOf<L, N>,
     {
         let mut lanes: [Option<OnItsWay<'s, L, V, N>>; W] = [const { None }; W];
         lanes.iter_mut().for_each(|lane| *lane = waiting.next());
-        let Some(first) = &lanes[0] else { return };
+        let Some(first) = &lanes[0] else { return ControlFlow::Continue(()) };
         let (mut systems, mut starts) = ([first.system; W], [first.start; W]);
         // Steps until the next record of each lane, where it has a member.
         let mut left = [0; W];
@@ -185,13 +189,16 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         // Whether records are so far away that a lane may have failed long before.
         let mut is_long = false;
         loop {
+            if stop.is_asked() {
+                return ControlFlow::Break(());
+            }
             let mut arriving = [None; W];
             for lane in 0..W {
                 if left[lane] > 0 && !(is_long && runs.state(lane).is_none()) {
                     continue;
                 }
                 let Some(member) = &mut lanes[lane] else { continue };
-                if let ControlFlow::Continue(steps) = self.look(&runs, lane, member, observe) {
+                if let Some(steps) = self.look(&runs, lane, member, observe, stop)? {
                     left[lane] = steps;
                     continue;
                 }
@@ -206,7 +213,7 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
             }
             let taken =
                 lanes.iter().zip(&left).filter_map(|(member, &left)| member.is_some().then_some(left));
-            let Some(next) = taken.min() else { return };
+            let Some(next) = taken.min() else { return ControlFlow::Continue(()) };
             is_long = next > LONG;
             let part = next.min(LONG);
             if part > 0 {
@@ -216,21 +223,22 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         }
     }
 
-    /// Observes a member at a record; how many steps it is to the next, if it goes on.
+    /// Observes a member at a record; how many steps it is to the next, if it goes on. Breaks where all end.
     fn look<L, V, const N: usize, const W: usize>(
         &self,
         runs: &LaneRuns<'_, L, M, N, W>,
         lane: usize,
         member: &mut OnItsWay<'_, L, V, N>,
         observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
-    ) -> ControlFlow<(), u64>
+        stop: Stop<'_>,
+    ) -> ControlFlow<(), Option<u64>>
     where
         L: LanesBy<M, N, Scalar = S>,
         M: MethodOf<L, N>,
     {
         let Some(state) = runs.state(lane) else {
-            *member.failure = self.alone(member, observe).err();
-            return ControlFlow::Break(());
+            *member.failure = failed(self.alone(member, observe, stop))?;
+            return ControlFlow::Continue(None);
         };
         let Plan { h, steps: all, every, .. } = self.plan;
         let OnItsWay { number, system, next: steps, .. } = *member;
@@ -238,10 +246,10 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         member.seen += 1;
         let record = Record { number, system, steps, time, state };
         if observe(member.value, &record).is_break() || steps == all {
-            return ControlFlow::Break(());
+            return ControlFlow::Continue(None);
         }
         member.next = all.min(steps.saturating_add(every.unwrap_or(all).max(1)));
-        ControlFlow::Continue(member.next - steps)
+        ControlFlow::Continue(Some(member.next - steps))
     }
 
     /// Finds what became of a member whose lane does not tell, by a run of its own, which has the
@@ -251,15 +259,18 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         &self,
         member: &mut OnItsWay<'_, L, V, N>,
         observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
-    ) -> Result<(), Failure<S, N>>
+        stop: Stop<'_>,
+    ) -> Result<(), NoEnd<S, N>>
     where
         L: LanesBy<M, N, Scalar = S>,
         M: MethodOf<L, N>,
     {
         let mut records = 0;
-        self.plan.run(self.method, member.number, member.system, &member.start, |record| {
+        let of = (member.number, member.system, &member.start);
+        let observe = |record: &Record<'_, L, N>| {
             records += 1;
             if records > member.seen { observe(member.value, record) } else { ControlFlow::Continue(()) }
-        })
+        };
+        self.plan.run(self.method, of, observe, stop)
     }
 }

@@ -3,9 +3,10 @@
 use core::any::type_name;
 use core::ops::ControlFlow;
 
+use dalembert::run::Stop;
 use dalembert::step::{Flow, MethodOf};
 use dalembert::system::Scalar;
-use dalembert::tolerance::{Methods, OffersMethods};
+use dalembert::tolerance::{Methods, OffersMethods, ToleranceError};
 use dalembert::{Discretise, Lagrangian, State, StepError};
 
 use crate::member::{End, Failure, Record};
@@ -26,12 +27,14 @@ pub struct Slot<L: Lagrangian<N>, V, const N: usize> {
 /// How the members of a chunk are stepped.
 pub trait Stepping<L: Lagrangian<N>, const N: usize>: Sync {
     /// Steps all of `members`; `observe` sees the records of each in the order of time, and says whether it
-    /// goes on.
+    /// goes on. Breaks where `stop` is asked to end, which it looks at some hundred steps apart at most: the
+    /// members are then as they happen to be, and not looked at.
     fn advance<V>(
         &self,
         members: &mut [Slot<L, V, N>],
         observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
-    );
+        stop: Stop<'_>,
+    ) -> ControlFlow<()>;
 
     /// How the members are stepped, in words: that two studies are the same.
     fn description(&self) -> String;
@@ -44,18 +47,44 @@ pub trait Stepping<L: Lagrangian<N>, const N: usize>: Sync {
     }
 }
 
+/// Why the run of a member has no end.
+pub(crate) enum NoEnd<S, const N: usize> {
+    /// It fails.
+    Failed(Failure<S, N>),
+    /// The caller ends all.
+    Stopped,
+}
+
+impl<S, const N: usize> From<Failure<S, N>> for NoEnd<S, N> {
+    fn from(failure: Failure<S, N>) -> Self {
+        Self::Failed(failure)
+    }
+}
+
+/// The failure of a member after its run, if it has one; breaks where all end.
+pub(crate) fn failed<S, const N: usize>(
+    run: Result<(), NoEnd<S, N>>,
+) -> ControlFlow<(), Option<Failure<S, N>>> {
+    match run {
+        Ok(()) => ControlFlow::Continue(None),
+        Err(NoEnd::Failed(failure)) => ControlFlow::Continue(Some(failure)),
+        Err(NoEnd::Stopped) => ControlFlow::Break(()),
+    }
+}
+
 /// One member after the other: the run of each that has a start, and its failure.
 fn one_by_one<L: Lagrangian<N>, V, const N: usize>(
     members: &mut [Slot<L, V, N>],
-    run: impl Fn(u64, &L, &State<L::Scalar, N>, &mut V) -> Result<(), Failure<L::Scalar, N>>,
-) {
+    run: impl Fn(u64, &L, &State<L::Scalar, N>, &mut V) -> Result<(), NoEnd<L::Scalar, N>>,
+) -> ControlFlow<()> {
     for Slot { number, start, value, failure } in members {
         let done = match start {
             Ok((system, start)) => run(*number, system, start, value),
-            Err(error) => Err(Failure { number: *number, error: (*error).into(), last: None }),
+            Err(error) => Err(Failure { number: *number, error: (*error).into(), last: None }.into()),
         };
-        *failure = done.err();
+        *failure = failed(done)?;
     }
+    ControlFlow::Continue(())
 }
 
 /// Steps of one size.
@@ -95,10 +124,11 @@ where
         &self,
         members: &mut [Slot<L, V, N>],
         observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
-    ) {
+        stop: Stop<'_>,
+    ) -> ControlFlow<()> {
         one_by_one(members, |number, system, start, value| {
-            self.plan.run(self.method, number, system, start, |record| observe(value, record))
-        });
+            self.plan.run(self.method, (number, system, start), |record| observe(value, record), stop)
+        })
     }
 
     fn description(&self) -> String {
@@ -142,11 +172,10 @@ impl<S: Scalar> Plan<S> {
     pub(crate) fn run<L, M, const N: usize>(
         &self,
         method: M,
-        number: u64,
-        system: &L,
-        start: &State<S, N>,
+        (number, system, start): (u64, &L, &State<S, N>),
         mut observe: impl FnMut(&Record<'_, L, N>) -> ControlFlow<()>,
-    ) -> Result<(), Failure<S, N>>
+        stop: Stop<'_>,
+    ) -> Result<(), NoEnd<S, N>>
     where
         L: Flow<M, N, Scalar = S>,
         M: MethodOf<L, N>,
@@ -160,16 +189,23 @@ impl<S: Scalar> Plan<S> {
             return Ok(());
         }
         let stride = self.every.unwrap_or(self.steps).max(1);
-        let mut steps = 0;
+        let (mut steps, mut next) = (0, stride.min(self.steps));
         while steps < self.steps {
-            for _ in 0..stride.min(self.steps - steps) {
+            if stop.is_asked() {
+                return Err(NoEnd::Stopped);
+            }
+            for _ in 0..Stop::STRIDE.min(next - steps) {
                 // A trajectory ends after an error alone.
                 if let Some(Err(error)) = run.next() {
                     let last = Some(End { number, time: run.time(), state: *run.state() });
-                    return Err(Failure { number, error: error.into(), last });
+                    return Err(Failure { number, error: error.into(), last }.into());
                 }
                 steps += 1;
             }
+            if steps < next {
+                continue;
+            }
+            next = self.steps.min(steps.saturating_add(stride));
             let record = Record { number, system, steps, time: run.time(), state: *run.state() };
             if observe(&record).is_break() {
                 break;
@@ -204,18 +240,23 @@ where
         &self,
         members: &mut [Slot<L, V, N>],
         observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
-    ) {
+        stop: Stop<'_>,
+    ) -> ControlFlow<()> {
         one_by_one(members, |number, system, start, value| {
-            let reached = system.to_error(self.tolerance).until(self.time).end(start).map_err(|error| {
-                let last = Some(End { number, time: 0.0, state: *start });
-                Failure { number, error: error.into(), last }
+            let request = system.to_error(self.tolerance).until(self.time).stopped_by(stop);
+            let reached = request.end(start).map_err(|error| match error {
+                ToleranceError::Stopped => NoEnd::Stopped,
+                error => {
+                    let last = Some(End { number, time: 0.0, state: *start });
+                    Failure { number, error: error.into(), last }.into()
+                }
             })?;
             let (steps, state) = (reached.choice.steps(), reached.state);
             let time = reached.choice.step_size() * steps as f64;
             // The end is the only record: nothing is left to be stopped.
             let _ = observe(value, &Record { number, system, steps, time, state });
             Ok(())
-        });
+        })
     }
 
     fn at_start(&self, system: &L, start: &State<L::Scalar, N>) -> Vec<f64> {

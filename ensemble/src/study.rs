@@ -5,7 +5,7 @@ use core::ops::{ControlFlow, Range};
 use core::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use dalembert::run::InLanes as LanesBy;
+use dalembert::run::{InLanes as LanesBy, Stop};
 use dalembert::step::{Flow, MethodOf};
 use dalembert::tolerance::OffersMethods;
 use dalembert::{Gauss, Lagrangian, State, StepError};
@@ -222,8 +222,9 @@ where
         self
     }
 
-    /// Cancels when another thread sets `flag`: sooner than the progress callback can, after the members that
-    /// threads have in hand, 64 each at first. What they came to is not counted.
+    /// Cancels when another thread sets `flag`: sooner than the progress callback can, within some hundred
+    /// steps, while members are on their way and while their method is chosen. The members that threads have
+    /// in hand are not counted.
     ///
     /// ```
     /// use std::sync::atomic::{AtomicBool, Ordering};
@@ -374,6 +375,8 @@ where
             let has_arrived = self.arrival.as_ref().is_some_and(|has_arrived| has_arrived(record));
             if has_arrived { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
+        let is_flagged = || self.is_flagged();
+        let stop = Stop::when(&is_flagged);
         let [mut size, largest] = CHUNK;
         let mut first = numbers.start;
         while first < numbers.end {
@@ -384,28 +387,31 @@ where
             let window = size * CHUNKS * rayon::current_num_threads() as u64;
             let end = numbers.end.min(first.saturating_add(window));
             let chunk = |first: u64| {
-                if self.is_flagged() {
-                    return None;
-                }
                 let numbers = first..end.min(first.saturating_add(size));
-                let mut slots: Vec<Slot<L, V, N>> = numbers
+                let slots: Option<Vec<Slot<L, V, N>>> = numbers
                     .map(|number| {
+                        if stop.is_asked() {
+                            return None;
+                        }
                         let start = (self.members)(number);
-                        Slot { number, value: value(number, &start), start, failure: None }
+                        Some(Slot { number, value: value(number, &start), start, failure: None })
                     })
                     .collect();
-                self.stepping.advance(&mut slots, &observe);
+                let mut slots = slots?;
+                if self.stepping.advance(&mut slots, &observe, stop).is_break() {
+                    return None;
+                }
                 let outcome = |Slot { number, value, failure, .. }| Outcome { number, value, failure };
                 let outcomes: Vec<_> = slots.into_iter().map(outcome).collect();
                 let failed = outcomes.iter().filter(|outcome| outcome.failure.is_some()).count();
                 Some((outcomes.len() as u64, failed as u64, together(outcomes)))
             };
             let chunks: Vec<u64> = (first..end).step_by(size as usize).collect();
-            let chunks: Vec<_> = chunks.into_par_iter().map(chunk).collect();
-            if self.is_flagged() {
+            let chunks: Option<Vec<_>> = chunks.into_par_iter().map(chunk).collect();
+            let Some(chunks) = chunks.filter(|_| !stop.is_asked()) else {
                 return Err(Cancelled { total, progress });
-            }
-            for (done, failed, kept) in chunks.into_iter().flatten() {
+            };
+            for (done, failed, kept) in chunks {
                 progress.done += done;
                 progress.failed += failed;
                 add(&mut total, kept);
@@ -420,7 +426,7 @@ where
         Ok(total)
     }
 
-    fn is_flagged(&self) -> bool {
+    pub(crate) fn is_flagged(&self) -> bool {
         self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 

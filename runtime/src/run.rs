@@ -17,6 +17,7 @@ mod pace;
 mod present;
 mod scaled_time;
 mod splitting;
+mod stop;
 pub mod tolerance;
 mod trajectory;
 
@@ -29,5 +30,6 @@ pub use held_input::{Carried, HeldInput, InPeriod, Period, Sensitivities};
 pub use lanes::{ExplicitInLanes, InLanes, LaneRuns};
 pub use memory::{DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, VelocityHistory};
 pub use splitting::Splitting;
+pub use stop::Stop;
 pub(crate) use trajectory::TakenUntil;
 pub use trajectory::{Run, Sample, Samples, Trajectory};

@@ -98,11 +98,13 @@ where
         self.sweep(planned)
     }
 
-    /// The digest of all members of a part as they start, made anew.
-    fn starts(&self, part: &Range<u64>) -> u128 {
-        let start_of = |number: u64| self.start_of(part, number, &(self.study.members)(number));
-        let all: Vec<u128> = part.clone().into_par_iter().map(start_of).collect();
-        starts::of_all(&all)
+    /// The digest of all members of a part as they start, made anew; none where the call is cancelled.
+    fn starts(&self, part: &Range<u64>) -> Option<u128> {
+        let start_of = |number: u64| {
+            (!self.study.is_flagged()).then(|| self.start_of(part, number, &(self.study.members)(number)))
+        };
+        let all: Option<Vec<u128>> = part.clone().into_par_iter().map(start_of).collect();
+        all.map(|all| starts::of_all(&all))
     }
 }
 
@@ -135,7 +137,8 @@ where
             return Err(PartsError::Cancelled(self.progress));
         }
         let path = names::path(&self.parts.folder, part);
-        let metadata = metadata::of_part(self.described, part, self.parts.starts(part));
+        let starts = self.parts.starts(part).ok_or(PartsError::Cancelled(self.progress))?;
+        let metadata = metadata::of_part(self.described, part, starts);
         let Found { failed, .. } = Found::at(&path, &metadata)?;
         self.count(part, failed);
         self.add_found(failed);

@@ -2,14 +2,17 @@
 
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::noether::{Contribution, Generator};
-use dalembert::samples::{SampleError, segments};
+use dalembert::run::Stop;
+use dalembert::samples::segments;
 use dalembert::step::{Discrete, ForceWork};
 use dalembert::{Discretise, EnergyLedger, Lagrangian, State};
 
 use crate::motion::Given;
 use crate::offer::Probe;
 use crate::record::Failure;
+use crate::refusal::Refusal;
 use crate::system::System;
+use crate::watch::Watch;
 
 /// A generator ξ(q) = A q + b of a group.
 #[derive(Clone, Debug)]
@@ -74,7 +77,7 @@ pub trait Checks<S: System<N>, const N: usize>: Send + Sync {
     /// The effect of each generator on L_d, on the force and on its momentum.
     ///
     /// # Errors
-    /// A [`SampleError`].
+    /// That the samples say nothing, or the watcher.
     fn symmetries(
         &self,
         fields: &S::Fields,
@@ -82,12 +85,13 @@ pub trait Checks<S: System<N>, const N: usize>: Send + Sync {
         h: f64,
         generators: &[Affine],
         region: &Region<'_>,
-    ) -> Result<Vec<Symmetry>, SampleError>;
+        watch: &Watch<'_>,
+    ) -> Result<Vec<Symmetry>, Refusal>;
 
     /// Where the energy of a run of so many steps went.
     ///
     /// # Errors
-    /// The step that failed.
+    /// The step that failed, or the watcher.
     fn ledger(
         &self,
         fields: &S::Fields,
@@ -95,7 +99,8 @@ pub trait Checks<S: System<N>, const N: usize>: Send + Sync {
         h: f64,
         start: &State<f64, N>,
         steps: u64,
-    ) -> Result<Ledger, Failure>;
+        watch: &Watch<'_>,
+    ) -> Result<Ledger, Refusal>;
 }
 
 /// Of a method that has no discrete objects by formulas.
@@ -137,19 +142,23 @@ where
         h: f64,
         generators: &[Affine],
         region: &Region<'_>,
-    ) -> Result<Vec<Symmetry>, SampleError> {
+        watch: &Watch<'_>,
+    ) -> Result<Vec<Symmetry>, Refusal> {
         let system = S::view(fields, given.inputs, given.time);
         let noether = system.by(self.0, h).noether();
         let vector = SVector::<f64, N>::from_column_slice;
         let Region { low, high, reach, samples } = *region;
         let segments = segments(vector(low), vector(high), vector(reach), samples);
         let judged = |Affine { name, linear, constant }: &Affine| {
+            if watch.is_called_off() {
+                return Err(Refusal::CalledOff);
+            }
             let generator = Generator::affine(
                 name.clone(),
                 SMatrix::<f64, N, N>::from_row_slice(linear),
                 vector(constant),
             );
-            let found = noether.symmetry(&generator, &segments)?;
+            let found = noether.symmetry(&generator, &segments).map_err(Refusal::Samples)?;
             let pair = |finding: &Contribution<N>| [finding.value, finding.tolerance];
             Ok(Symmetry {
                 generator: found.generator.clone(),
@@ -171,21 +180,23 @@ where
         h: f64,
         start: &State<f64, N>,
         steps: u64,
-    ) -> Result<Ledger, Failure> {
+        watch: &Watch<'_>,
+    ) -> Result<Ledger, Refusal> {
         let system = S::view(fields, given.inputs, given.time);
         let by = system.by(self.0, h);
         let (mut total, mut largest) = (EnergyLedger::default(), 0.0_f64);
         let (mut run, mut state) = (by.run(*start), *start);
         for step in 0..steps {
+            if step.is_multiple_of(Stop::STRIDE) && watch.pass(Some((step, steps))).is_break() {
+                return Err(Refusal::CalledOff);
+            }
             let time = run.time();
             let of_step = |state: &State<f64, N>, next: &State<f64, N>| {
                 system.later(time, |system| system.by(self.0, h).ledger(state, next))
             };
-            let failed = |error| Failure {
-                error,
-                step,
-                time: given.time + time,
-                state: [state.q, state.p].map(|vector| vector.as_slice().to_vec()),
+            let failed = |error| {
+                let state = [state.q, state.p].map(|vector| vector.as_slice().to_vec());
+                Refusal::Start(Failure { error, step, time: given.time + time, state })
             };
             let Some(next) = run.next() else { break };
             let next = next.map_err(failed)?.state;

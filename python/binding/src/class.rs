@@ -1,6 +1,5 @@
 //! The class of a system in Python, and what its methods do.
 
-use core::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError, RwLock};
 
@@ -16,9 +15,10 @@ use crate::error::{of_events, of_memory, of_refusal, of_step, warn};
 use crate::model::{Kind, Model, MotionGiven, Run as Asked, Start, Stepping};
 use crate::motion;
 use crate::offer::ErrorAsked;
-use crate::record::{Failure, Stop};
+use crate::record::Stop;
 use crate::reports::{EnergyLedger, Symmetry};
 use crate::results::{Linearization, Run, partial, to_array};
+use crate::watch::{Watch, watched};
 use crate::watching;
 
 /// Under which name a class has its [`KindObject`].
@@ -233,6 +233,12 @@ fn stepping(
     }
 }
 
+/// Does `work` without the interpreter's lock, unless Ctrl-C ends it.
+fn unless_called_off<T: Send>(py: Python<'_>, work: impl FnOnce(&Watch<'_>) -> T + Send) -> PyResult<T> {
+    let (result, called_off) = watched(py, &|_, _| Ok(()), work);
+    called_off.map_or(Ok(result), Err)
+}
+
 #[pymethods]
 impl System {
     #[new]
@@ -353,30 +359,17 @@ impl System {
             events: &events,
             is_tried: false,
         };
-        let mut interruption = None;
-        let ran = py.detach(|| {
-            let mut watch = |done: u64, of: u64| {
-                let looked = Python::attach(|py| {
-                    py.check_signals()?;
-                    progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (done, of)).map(drop))
-                });
-                match looked {
-                    Ok(()) => ControlFlow::Continue(()),
-                    Err(error) => {
-                        interruption = Some(error);
-                        ControlFlow::Break(())
-                    }
-                }
-            };
-            model.run(&asked, &mut watch)
-        });
+        let told = |py: Python<'_>, far: (u64, u64)| {
+            progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, far).map(drop))
+        };
+        let (ran, called_off) = watched(py, &told, |watch| model.run(&asked, watch));
+        if let Some(error) = called_off {
+            return Err(error);
+        }
         let mut ran = ran.map_err(|refusal| of_refusal(py, refusal, rule, &kind.rules()))?;
         let n = kind.coordinates();
         match ran.stop.take() {
-            None => {}
-            Some(Stop::Interrupted) => {
-                return Err(interruption.unwrap_or_else(|| PyValueError::new_err("interrupted")));
-            }
+            None | Some(Stop::Interrupted) => {}
             Some(Stop::Events(error)) => {
                 let raised = raised.lock().unwrap_or_else(PoisonError::into_inner).take();
                 return Err(raised.unwrap_or_else(|| of_events(py, &error)));
@@ -413,7 +406,7 @@ impl System {
     /// folder : where parts go
     /// members_per_part : members of a part
     /// first : the number of the first member, which begins a part
-    /// threads : how many; one a core unless said
+    /// threads : how many at most; one a core unless said, and no more
     /// progress : is called with the members that are done and all, some twenty times a second
     ///
     /// Returns
@@ -540,12 +533,8 @@ impl System {
         let times = times(model.kind(), t, &shape)?;
         let (q, other) = (arguments::numbers(&q), arguments::numbers(&other));
         let motion = if is_velocity { MotionGiven::Velocity(&other) } else { MotionGiven::Momentum(&other) };
-        let energies = py.detach(|| model.energies(&times, &q, motion)).map_err(|(k, error)| {
-            let row = |numbers: &[f64]| numbers[k * n..(k + 1) * n].to_vec();
-            let time = times.get(k).or(times.first()).copied().unwrap_or(0.0);
-            let failure = Failure { error, step: 0, time, state: [row(&q), row(&other)] };
-            of_step(py, &failure, None)
-        })?;
+        let energies = unless_called_off(py, |watch| model.energies(&times, &q, motion, watch))?;
+        let energies = energies.map_err(|refusal| of_refusal(py, refusal, None, &[]))?;
         match (shape.is_empty(), energies.first()) {
             (true, Some(&energy)) => Ok(energy.into_pyobject(py)?.into_any()),
             _ => Ok(to_array(py, energies, shape)?.into_any()),
@@ -587,7 +576,8 @@ impl System {
         let (inputs, time) = inputs(kind, u, t, 1)?;
         let region = Region { low: &low, high: &high, reach: &reach, samples };
         let given = motion::Given { inputs: &inputs, time };
-        let found = py.detach(|| model.symmetries(given, h, rule, &generators, &region));
+        let found =
+            unless_called_off(py, |watch| model.symmetries(given, h, rule, &generators, &region, watch))?;
         let found = found.map_err(|refusal| of_refusal(py, refusal, rule, &kind.rules()))?;
         Ok(found.into_iter().map(Symmetry::from).collect())
     }
@@ -614,7 +604,7 @@ impl System {
         let model = self.model();
         let kind = model.kind();
         let given = StartArguments { q, v, p, u, t, steps: 1 }.read(kind)?;
-        let ledger = py.detach(|| model.ledger(&given.start(), h, rule, steps));
+        let ledger = unless_called_off(py, |watch| model.ledger(&given.start(), h, rule, steps, watch))?;
         let ledger = ledger.map_err(|refusal| of_refusal(py, refusal, rule, &kind.rules()))?;
         Ok(ledger.into())
     }

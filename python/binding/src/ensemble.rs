@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
-use std::time::Duration;
 
 use dalembert_c::Number;
 use dalembert_ensemble::parts::{self, PartsError};
@@ -21,10 +20,8 @@ use crate::events::Event;
 use crate::many::{Asked, Control, FieldOfMembers, FoundOfMembers, Kept, NoResult, Rows, Written};
 use crate::model::{Kind, Model, Stepping};
 use crate::results::{Crossings, to_array};
-use crate::watched;
-
-/// How long results are waited for before Python is asked whether to go on.
-const PATIENCE: Duration = Duration::from_millis(50);
+use crate::watch::PATIENCE;
+use crate::{pool, watched};
 
 /// The states of all members, one row each.
 #[pyclass(frozen, get_all)]
@@ -185,15 +182,7 @@ pub fn run<'py>(py: Python<'py>, model: &dyn Model, given: Given<'_, 'py>) -> Py
         stepping: given.stepping,
         every: given.every,
     };
-    let pool = given.threads.map(|threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        pool.map_err(|error| PyOSError::new_err(error.to_string()))
-    });
-    let pool = pool.transpose()?;
-    let within = |work: &(dyn Fn() -> Result<Result<Kept, Written>, NoResult> + Sync)| match &pool {
-        Some(pool) => pool.install(work),
-        None => work(),
-    };
+    let pool = pool::of(py, given.threads)?;
     let control = Control::default();
     let parts = given.parts.as_ref();
     let work = || match parts {
@@ -208,7 +197,7 @@ pub fn run<'py>(py: Python<'py>, model: &dyn Model, given: Given<'_, 'py>) -> Py
         let done = control.done.load(Ordering::Relaxed);
         given.progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (done, members)).map(drop))
     };
-    let result = followed(py, &control, &look, &|| within(&work))?;
+    let result = followed(py, &control, &look, &|| pool.install(work))?;
     let rule = match given.stepping {
         Stepping::Fixed { rule, .. } => rule,
         Stepping::ToError(_) => None,

@@ -3,14 +3,14 @@
 use dalembert::StepError;
 use dalembert::run::events::EventError;
 use dalembert_ensemble::MemberError;
-use pyo3::exceptions::{PyArithmeticError, PyMemoryError, PyUserWarning, PyValueError};
+use pyo3::exceptions::{PyArithmeticError, PyMemoryError, PyRuntimeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyModule, PyType};
 
 use crate::many::{Failed, WhyFailed};
-use crate::model::Refusal;
 use crate::record::Failure;
+use crate::refusal::Refusal;
 use crate::results::to_array;
 
 /// The classes of exceptions of the module.
@@ -232,6 +232,7 @@ pub fn of_refusal(py: Python<'_>, refusal: Refusal, rule: Option<&str>, rules: &
             Err(error) => error,
         },
         Refusal::Start(failure) => of_step(py, &failure, None),
+        Refusal::CalledOff => PyRuntimeError::new_err("the call was called off"),
     }
 }
 

@@ -43,8 +43,11 @@ pub mod module;
 pub mod motion;
 #[doc(hidden)]
 pub mod offer;
+mod pool;
 #[doc(hidden)]
 pub mod record;
+#[doc(hidden)]
+pub mod refusal;
 mod reports;
 mod results;
 mod structure;
@@ -53,6 +56,8 @@ mod stub;
 pub mod system;
 #[doc(hidden)]
 pub mod together;
+#[doc(hidden)]
+pub mod watch;
 mod watched;
 mod watching;
 

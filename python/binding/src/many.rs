@@ -15,10 +15,11 @@ use dalembert_ensemble::{Ensemble, Failure, MemberError, Outcome, Plan, Progress
 use twox_hash::XxHash3_128;
 
 use crate::events::Found;
-use crate::model::{Refusal, Stepping};
+use crate::model::Stepping;
 use crate::motion::measured;
 use crate::offer::Offer;
 use crate::record::Record;
+use crate::refusal::Refusal;
 use crate::system::System;
 use crate::together::BySome;
 

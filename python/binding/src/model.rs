@@ -1,13 +1,11 @@
 //! Systems without their types: what the classes of Python call.
 
 use core::marker::PhantomData;
-use core::ops::ControlFlow;
 use std::path::Path;
 
 use dalembert::nalgebra::SVector;
-use dalembert::samples::SampleError;
+use dalembert::run::Stop as Told;
 use dalembert::system::Structure;
-use dalembert::tolerance::ToleranceError;
 use dalembert::{Lagrangian, State, StepError};
 use dalembert_c::{Field, Fields, Number};
 
@@ -17,7 +15,9 @@ use crate::many::{self, Asked, Control, Kept, NoResult, Written};
 use crate::motion::{Given, Motion, measured};
 use crate::offer::{ErrorAsked, Offer};
 use crate::record::{Failure, Guarded, Plan, Record, Stop};
+use crate::refusal::Refusal;
 use crate::system::System;
+use crate::watch::Watch;
 
 /// A class of systems.
 pub trait Kind: Send + Sync {
@@ -58,7 +58,7 @@ pub trait Model: Send + Sync {
     ///
     /// # Errors
     /// Why there is none.
-    fn run(&self, run: &Run<'_>, watch: Watch<'_>) -> Result<Ran, Refusal>;
+    fn run(&self, run: &Run<'_>, watch: &Watch<'_>) -> Result<Ran, Refusal>;
 
     /// A step with its derivatives.
     ///
@@ -77,13 +77,21 @@ pub trait Model: Send + Sync {
         rule: Option<&str>,
         generators: &[Affine],
         region: &Region<'_>,
+        watch: &Watch<'_>,
     ) -> Result<Vec<Symmetry>, Refusal>;
 
     /// Where the energy of a run of so many steps went.
     ///
     /// # Errors
     /// Why that is not known.
-    fn ledger(&self, start: &Start<'_>, h: f64, rule: Option<&str>, steps: u64) -> Result<Ledger, Refusal>;
+    fn ledger(
+        &self,
+        start: &Start<'_>,
+        h: f64,
+        rule: Option<&str>,
+        steps: u64,
+        watch: &Watch<'_>,
+    ) -> Result<Ledger, Refusal>;
 
     /// Records of many members, as arrays.
     ///
@@ -106,17 +114,15 @@ pub trait Model: Send + Sync {
     /// The energies of states, q and v or p of one after the other, at one time or each at its own.
     ///
     /// # Errors
-    /// The one that fails.
+    /// The first that fails.
     fn energies(
         &self,
         times: &[f64],
         q: &[f64],
         motion: MotionGiven<'_>,
-    ) -> Result<Vec<f64>, (usize, StepError)>;
+        watch: &Watch<'_>,
+    ) -> Result<Vec<f64>, Refusal>;
 }
-
-/// A watcher of a run: it is told of the steps taken and to take, and may call it off.
-pub type Watch<'w> = &'w mut dyn FnMut(u64, u64) -> ControlFlow<()>;
 
 /// Velocities or momenta.
 #[derive(Clone, Copy, Debug)]
@@ -184,27 +190,6 @@ pub struct Ran {
     pub guarded: Option<Guarded>,
     /// The events of each function.
     pub events: Vec<Found>,
-}
-
-/// Why there is not even the beginning of a run.
-#[derive(Clone, Debug)]
-pub enum Refusal {
-    /// There is no such rule.
-    Rule,
-    /// The rule's steps take no changing inputs and have no derivatives.
-    NotDriven,
-    /// Events are those of runs that hold one input, without derivatives.
-    NotWatched,
-    /// The rule has no discrete objects by formulas.
-    NotChecked,
-    /// The samples say nothing.
-    Samples(SampleError),
-    /// Of this system no error can be asked.
-    NoError,
-    /// No method reaches the error.
-    Tolerance(ToleranceError),
-    /// The start is no state, or the step from it fails.
-    Start(Failure),
 }
 
 /// A step with its derivatives, row by row.
@@ -318,7 +303,7 @@ impl<S: System<N>, const N: usize> Model for ModelOf<S, N> {
         self.fields.change_entry(field, index, value)
     }
 
-    fn run(&self, run: &Run<'_>, watch: Watch<'_>) -> Result<Ran, Refusal> {
+    fn run(&self, run: &Run<'_>, watch: &Watch<'_>) -> Result<Ran, Refusal> {
         let Run { start: given, stepping, every, is_differentiated, events: asked, is_tried } = run;
         let start = self.state(given)?;
         let found = vec![Found::default(); asked.len()];
@@ -326,6 +311,8 @@ impl<S: System<N>, const N: usize> Model for ModelOf<S, N> {
         let mut watched = (!asked.is_empty()).then_some(&mut events);
         let mut ran = (Record::default(), None);
         let mut guarded = None;
+        let is_called_off = || watch.is_called_off();
+        let told = Told::when(&is_called_off);
         match *stepping {
             Stepping::Fixed { h, steps, rule } => {
                 let plan = Plan { steps, every: *every, origin: given.time };
@@ -350,11 +337,11 @@ impl<S: System<N>, const N: usize> Model for ModelOf<S, N> {
                     ran = Record::of(motion, &plan, watch);
                     if let (_, Some(Stop::Failed(failure))) = &ran { Some(failure.error) } else { None }
                 };
-                let tried =
-                    steps.tried(&self.fields, Self::given(given), asked, &start, &mut events, &mut record);
+                let given = Self::given(given);
+                let tried = steps.tried(&self.fields, given, asked, &start, &mut events, &mut record, told);
                 // A run that was called off says nothing of its error.
                 if !matches!(ran.1, Some(Stop::Interrupted | Stop::TooLarge(_))) {
-                    tried.map_err(Refusal::Tolerance)?;
+                    tried.map_err(Refusal::from)?;
                 }
             }
             Stepping::ToError(asked) => {
@@ -364,8 +351,8 @@ impl<S: System<N>, const N: usize> Model for ModelOf<S, N> {
                     ran = Record::of(motion, &plan, watch);
                 };
                 let given = Self::given(given);
-                let run = steps.run(&self.fields, given, asked, &start, watched.take(), &mut record);
-                guarded = Some(run.map_err(Refusal::Tolerance)?);
+                let run = steps.run(&self.fields, given, asked, &start, watched.take(), &mut record, told);
+                guarded = Some(run?);
             }
         }
         let (record, stop) = ran;
@@ -394,15 +381,23 @@ impl<S: System<N>, const N: usize> Model for ModelOf<S, N> {
         rule: Option<&str>,
         generators: &[Affine],
         region: &Region<'_>,
+        watch: &Watch<'_>,
     ) -> Result<Vec<Symmetry>, Refusal> {
         let checks = offered::<S, N>(rule)?.checks.ok_or(Refusal::NotChecked)?;
-        checks.symmetries(&self.fields, given, h, generators, region).map_err(Refusal::Samples)
+        checks.symmetries(&self.fields, given, h, generators, region, watch)
     }
 
-    fn ledger(&self, start: &Start<'_>, h: f64, rule: Option<&str>, steps: u64) -> Result<Ledger, Refusal> {
+    fn ledger(
+        &self,
+        start: &Start<'_>,
+        h: f64,
+        rule: Option<&str>,
+        steps: u64,
+        watch: &Watch<'_>,
+    ) -> Result<Ledger, Refusal> {
         let state = self.state(start)?;
         let checks = offered::<S, N>(rule)?.checks.ok_or(Refusal::NotChecked)?;
-        checks.ledger(&self.fields, Self::given(start), h, &state, steps).map_err(Refusal::Start)
+        checks.ledger(&self.fields, Self::given(start), h, &state, steps, watch)
     }
 
     fn kept(&self, asked: &Asked<'_>, control: &Control) -> Result<Kept, NoResult> {
@@ -424,20 +419,27 @@ impl<S: System<N>, const N: usize> Model for ModelOf<S, N> {
         times: &[f64],
         q: &[f64],
         motion: MotionGiven<'_>,
-    ) -> Result<Vec<f64>, (usize, StepError)> {
+        watch: &Watch<'_>,
+    ) -> Result<Vec<f64>, Refusal> {
         let inputs = vec![0.0; S::INPUTS];
         let vector = SVector::<f64, N>::from_column_slice;
         let (MotionGiven::Velocity(other) | MotionGiven::Momentum(other)) = motion;
         let states = q.chunks_exact(N).zip(other.chunks_exact(N)).enumerate();
         let energy = |(k, (q, other)): (usize, (&[f64], &[f64]))| {
-            let q = vector(q);
+            if (k as u64).is_multiple_of(Told::STRIDE) && watch.is_called_off() {
+                return Err(Refusal::CalledOff);
+            }
+            let (given, q) = (q, vector(q));
             let time = times.get(k).or(times.first()).copied().unwrap_or(0.0);
             let system = S::view(&self.fields, &inputs, time);
             match motion {
                 MotionGiven::Velocity(_) => Ok(system.energy(&q, &vector(other))),
                 MotionGiven::Momentum(_) => measured(&system, &State { q, p: vector(other) })
                     .map(|(_, energy)| energy)
-                    .map_err(|error| (k, error)),
+                    .map_err(|error| {
+                        let state = [given, other].map(<[f64]>::to_vec);
+                        Refusal::Start(Failure { error, step: 0, time, state })
+                    }),
             }
         };
         states.map(energy).collect()

@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use dalembert::run::{Discretise, DrivenTrajectory, InLanes as LanesBy};
+use dalembert::run::{Discretise, DrivenTrajectory, InLanes as LanesBy, Stop};
 use dalembert::step::{Flow, Linearizable, Memory, Step};
 use dalembert::tolerance::{OffersMethods, ToleranceError};
 use dalembert::{State, StepError};
@@ -113,6 +113,7 @@ pub struct ErrorAsked {
 }
 
 /// Runs to an error asked for.
+#[allow(clippy::too_many_arguments, reason = "a run has so many")]
 pub trait StepsToError<S: System<N>, const N: usize>: Send + Sync {
     /// A run from `start`; what became of its error.
     ///
@@ -126,6 +127,7 @@ pub trait StepsToError<S: System<N>, const N: usize>: Send + Sync {
         start: &State<f64, N>,
         events: Option<&mut Events<'_>>,
         record: &mut dyn FnMut(&mut dyn Motion<N>, u64),
+        stop: Stop<'_>,
     ) -> Result<Guarded, ToleranceError>;
 
     /// As many runs from `start` as it takes to keep the error, each of them recorded anew; `record` hands on
@@ -141,6 +143,7 @@ pub trait StepsToError<S: System<N>, const N: usize>: Send + Sync {
         start: &State<f64, N>,
         events: &mut Events<'_>,
         record: &mut dyn FnMut(&mut dyn Motion<N>, u64) -> Option<StepError>,
+        stop: Stop<'_>,
     ) -> Result<(), ToleranceError>;
 
     /// The runs of many.
@@ -406,9 +409,11 @@ where
         start: &State<f64, N>,
         events: Option<&mut Events<'_>>,
         record: &mut dyn FnMut(&mut dyn Motion<N>, u64),
+        stop: Stop<'_>,
     ) -> Result<Guarded, ToleranceError> {
         let system = S::view(fields, given.inputs, given.time);
-        let choice = system.to_error(asked.tolerance).until(asked.until).choice(start)?;
+        let request = system.to_error(asked.tolerance).until(asked.until).stopped_by(stop);
+        let choice = request.choice(start)?;
         let mut run = choice.trajectory();
         let steps = choice.steps();
         match events {
@@ -431,9 +436,11 @@ where
         start: &State<f64, N>,
         events: &mut Events<'_>,
         record: &mut dyn FnMut(&mut dyn Motion<N>, u64) -> Option<StepError>,
+        stop: Stop<'_>,
     ) -> Result<(), ToleranceError> {
         let system = S::view(fields, given.inputs, given.time);
-        let reached = system.to_error(asked.tolerance).until(asked.until).end_followed(start, |run| {
+        let request = system.to_error(asked.tolerance).until(asked.until).stopped_by(stop);
+        let reached = request.end_followed(start, |run| {
             let (steps, mut failure) = (run.choice().steps(), None);
             events.begin();
             watched(run, events, &mut |motion| failure = record(motion, steps));

@@ -1,21 +1,16 @@
 //! The records of a run.
 
-use core::ops::ControlFlow;
 use std::collections::TryReserveError;
-use std::time::{Duration, Instant};
 
 use dalembert::StepError;
+use dalembert::run::Stop as Told;
 use dalembert::run::events::EventError;
 use dalembert::tolerance::Breach;
 
 use crate::derivatives::{column_rows, matrix_rows};
 use crate::motion::Motion;
-
-/// Steps between two looks at the clock.
-const STRIDE: u64 = 64;
-
-/// How long a run goes on before it asks whether it is to be interrupted.
-const PATIENCE: Duration = Duration::from_millis(50);
+pub use crate::refusal::Failure;
+use crate::watch::Watch;
 
 /// Which steps are recorded, of how many.
 #[derive(Clone, Copy, Debug)]
@@ -64,19 +59,6 @@ pub enum Stop {
     TooLarge(TryReserveError),
 }
 
-/// A step that failed, and where the run stands.
-#[derive(Clone, Debug)]
-pub struct Failure {
-    /// Why.
-    pub error: StepError,
-    /// The step, counted from 0.
-    pub step: u64,
-    /// The time of the last good state.
-    pub time: f64,
-    /// Its configuration and momentum; no momentum where the start is no state.
-    pub state: [Vec<f64>; 2],
-}
-
 /// The method and step size chosen for an error asked for, and where the run passed it.
 #[derive(Clone, Debug)]
 pub struct Guarded {
@@ -95,7 +77,7 @@ impl Record {
     pub fn of<const N: usize>(
         motion: &mut dyn Motion<N>,
         plan: &Plan,
-        watch: &mut dyn FnMut(u64, u64) -> ControlFlow<()>,
+        watch: &Watch<'_>,
     ) -> (Self, Option<Stop>) {
         let mut record = Self::default();
         let stop = record.fill(motion, plan, watch).err();
@@ -106,12 +88,12 @@ impl Record {
         &mut self,
         motion: &mut dyn Motion<N>,
         plan: &Plan,
-        watch: &mut dyn FnMut(u64, u64) -> ControlFlow<()>,
+        watch: &Watch<'_>,
     ) -> Result<(), Stop> {
         let every = plan.every.max(1);
         self.reserve(motion, plan.steps.div_ceil(every).saturating_add(1)).map_err(Stop::TooLarge)?;
         self.push(motion, plan)?;
-        let mut asked = Instant::now();
+        let far = |taken| Some((taken, plan.steps));
         while self.steps < plan.steps {
             match motion.advance() {
                 Some(Ok(iterations)) => self.iterations += u64::from(iterations),
@@ -128,14 +110,11 @@ impl Record {
             if self.steps.is_multiple_of(every) || self.steps == plan.steps {
                 self.push(motion, plan)?;
             }
-            if self.steps.is_multiple_of(STRIDE) && asked.elapsed() > PATIENCE {
-                if watch(self.steps, plan.steps).is_break() {
-                    return Err(Stop::Interrupted);
-                }
-                asked = Instant::now();
+            if self.steps.is_multiple_of(Told::STRIDE) && watch.pass(far(self.steps)).is_break() {
+                return Err(Stop::Interrupted);
             }
         }
-        if watch(self.steps, plan.steps).is_break() { Err(Stop::Interrupted) } else { Ok(()) }
+        if watch.tell(far(self.steps)).is_break() { Err(Stop::Interrupted) } else { Ok(()) }
     }
 
     fn reserve<const N: usize>(

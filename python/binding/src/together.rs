@@ -4,6 +4,7 @@ use core::cell::RefCell;
 use core::mem::replace;
 use core::ops::ControlFlow;
 
+use dalembert::run::Stop;
 use dalembert::{Lagrangian, StepError};
 use dalembert_ensemble::{Record, Slot, Stepping};
 
@@ -14,7 +15,8 @@ pub trait Together<L: Lagrangian<N>, const N: usize>: Sync {
         &self,
         members: &mut [Slot<L, usize, N>],
         observe: &dyn Fn(usize, &Record<'_, L, N>) -> ControlFlow<()>,
-    );
+        stop: Stop<'_>,
+    ) -> ControlFlow<()>;
 
     /// As [`Stepping::description`].
     fn description(&self) -> String;
@@ -25,10 +27,10 @@ impl<L: Lagrangian<N>, T: Stepping<L, N>, const N: usize> Together<L, N> for T {
         &self,
         members: &mut [Slot<L, usize, N>],
         observe: &dyn Fn(usize, &Record<'_, L, N>) -> ControlFlow<()>,
-    ) {
-        Stepping::advance(self, members, &|place: &mut usize, record: &Record<'_, L, N>| {
-            observe(*place, record)
-        });
+        stop: Stop<'_>,
+    ) -> ControlFlow<()> {
+        let observe = |place: &mut usize, record: &Record<'_, L, N>| observe(*place, record);
+        Stepping::advance(self, members, &observe, stop)
     }
 
     fn description(&self) -> String {
@@ -44,7 +46,8 @@ impl<L: Lagrangian<N>, const N: usize> Stepping<L, N> for BySome<'_, L, N> {
         &self,
         members: &mut [Slot<L, V, N>],
         observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
-    ) {
+        stop: Stop<'_>,
+    ) -> ControlFlow<()> {
         let mut values = Vec::with_capacity(members.len());
         let mut placed = Vec::with_capacity(members.len());
         let mut failures = Vec::with_capacity(members.len());
@@ -55,10 +58,13 @@ impl<L: Lagrangian<N>, const N: usize> Stepping<L, N> for BySome<'_, L, N> {
             values.push(RefCell::new(value));
             failures.push(failure);
         }
-        self.0.advance(&mut placed, &|place, record| observe(&mut values[place].borrow_mut(), record));
+        let observe =
+            |place: usize, record: &Record<'_, L, N>| observe(&mut values[place].borrow_mut(), record);
+        self.0.advance(&mut placed, &observe, stop)?;
         for (failure, placed) in failures.into_iter().zip(placed) {
             *failure = placed.failure;
         }
+        ControlFlow::Continue(())
     }
 
     fn description(&self) -> String {

@@ -8,8 +8,10 @@ use rayon::prelude::*;
 
 use crate::events::{Event, Found};
 use crate::many::{Asked, Control, Failed, Kept, NoResult, WhyFailed};
-use crate::model::{Model, MotionGiven, Ran, Refusal, Run, Start};
+use crate::model::{Model, MotionGiven, Ran, Run, Start};
 use crate::record::{Failure, Record, Stop};
+use crate::refusal::Refusal;
+use crate::watch::{Far, Watch};
 
 /// Members whose runs are held before they are added to the arrays.
 const HELD: usize = 16_384;
@@ -81,11 +83,11 @@ fn run(
     let every = asked.every.unwrap_or(u64::MAX);
     let run =
         Run { start, stepping: asked.stepping, every, is_differentiated: false, events, is_tried: true };
-    let mut watch = |_, _| match control.cancel.load(Ordering::Relaxed) {
+    let look = |_: Far| match control.cancel.load(Ordering::Relaxed) {
         true => ControlFlow::Break(()),
         false => ControlFlow::Continue(()),
     };
-    let ran = system.run(&run, &mut watch);
+    let ran = system.run(&run, &Watch::new(&look));
     control.done.fetch_add(1, Ordering::Relaxed);
     let number = asked.first + member as u64;
     let without_start = |error| {
@@ -97,6 +99,7 @@ fn run(
         Ok(ran) => outcome(ran, number),
         Err(Refusal::Start(failure)) => without_start(MemberError::Step(failure.error).into()),
         Err(Refusal::Tolerance(error)) => without_start(MemberError::from(error).into()),
+        Err(Refusal::CalledOff) => Err(NoResult::Cancelled),
         Err(refusal) => Err(NoResult::Refused(refusal)),
     }
 }

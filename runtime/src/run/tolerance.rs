@@ -196,6 +196,8 @@ pub enum ToleranceError {
         /// The method.
         method: Method,
     },
+    /// The caller has stopped the choice, or a run that was tried ([`TimedRequest::stopped_by`]).
+    Stopped,
     /// A step at the chosen size failed at the start, or the system is not that written. Of
     /// [`TimedRequest::end`]: or a step on the way, of the last run that was tried.
     Step(StepError),
@@ -209,7 +211,7 @@ fn bounded<'a, L, M, const N: usize>(
     (system, methods): (&'a L, M),
     start: &State<L::Scalar, N>,
     [time, tolerance]: [f64; 2],
-    bounds: Bounds,
+    bounds: Bounds<'a>,
 ) -> Result<Choice<'a, L, M, N>, ToleranceError>
 where
     L: ActingForce<N>,
@@ -221,7 +223,9 @@ where
     }
     bounds.check()?;
     verify_start(system, 0.0, start, true).map_err(ToleranceError::Step)?;
-    search::choice((system, methods), start, [time, tolerance], bounds, None)
+    let choice = search::choice((system, methods), start, [time, tolerance], bounds, None);
+    // What was found until then is no choice, nor why there is none.
+    if bounds.stop.is_asked() { Err(ToleranceError::Stopped) } else { choice }
 }
 
 /// The local error of a step of this order, from its end and that of two half ones.

@@ -23,6 +23,7 @@ mod scaled_time;
 mod slack;
 mod splitting;
 mod splitting_conditions;
+mod stopped;
 mod timed_lanes;
 mod timed_splitting;
 mod tolerance;

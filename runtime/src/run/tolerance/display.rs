@@ -89,6 +89,7 @@ impl fmt::Display for ToleranceError {
             Self::NotOffered { method } => {
                 write!(f, "the system does not offer the method of the run: {method}; list its rule")
             }
+            Self::Stopped => f.write_str("the caller stopped it before there was a run that keeps the error"),
             Self::Step(error) => write!(f, "no run begins, or comes to its end: {error}"),
             Self::Breach(breach) => {
                 let Breach { time, expected, tolerance, .. } = breach;

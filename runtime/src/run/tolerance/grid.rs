@@ -3,6 +3,7 @@
 use nalgebra::ComplexField;
 
 use super::{ToleranceError, Trial};
+use crate::run::Stop;
 
 /// Times at which a system may break, at most.
 const MOST_BREAKS: usize = 16;
@@ -14,9 +15,9 @@ pub(super) const MOST_STEPS: u64 = 10_000_000;
 /// system of its own side, whichever the body gives the very time to.
 const APART: f64 = 8.0 * f64::EPSILON;
 
-/// Bounds of a run's steps, besides the error.
+/// Bounds of a run's steps, besides the error, and what ends them before.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bounds {
+pub(super) struct Bounds<'s> {
     /// The limit of their number.
     pub(super) most: u64,
     /// The limit of what they cost, in evaluations of the forces.
@@ -24,16 +25,22 @@ pub(super) struct Bounds {
     /// The longest step; infinite where any is allowed.
     pub(super) longest: f64,
     pub(super) breaks: Breaks,
+    pub(super) stop: Stop<'s>,
 }
 
-impl Default for Bounds {
+impl Default for Bounds<'_> {
     fn default() -> Self {
-        let costliest = f64::INFINITY;
-        Self { most: MOST_STEPS, costliest, longest: f64::INFINITY, breaks: Breaks::default() }
+        Self {
+            most: MOST_STEPS,
+            costliest: f64::INFINITY,
+            longest: f64::INFINITY,
+            breaks: Breaks::default(),
+            stop: Stop::never(),
+        }
     }
 }
 
-impl Bounds {
+impl Bounds<'_> {
     /// Whether they make sense for a run over `time`.
     pub(super) fn check(&self) -> Result<(), ToleranceError> {
         let Self { longest, costliest, breaks, .. } = self;

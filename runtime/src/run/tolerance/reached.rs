@@ -67,7 +67,7 @@ pub(super) fn reached<'a, L, M, const N: usize>(
     (system, methods): (&'a L, M),
     start: &State<L::Scalar, N>,
     [time, tolerance]: [f64; 2],
-    bounds: Bounds,
+    bounds: Bounds<'a>,
     follow: &mut Follow<'_, 'a, L, M, N>,
 ) -> Result<Reached<'a, L, M, N>, ToleranceError>
 where
@@ -80,6 +80,9 @@ where
     loop {
         let run = follow(&choice);
         evaluations += choice.chosen.spent + run.evaluations;
+        if bounds.stop.is_asked() {
+            return Err(ToleranceError::Stopped);
+        }
         let is_clear = run.largest <= ACCEPTED * tolerance;
         let (largest, error) = match (run.failure, run.breach) {
             (None, None) if runs == 1 || runs == RUNS || is_clear => {
@@ -103,7 +106,7 @@ where
             // The start may show nothing of what comes: the same run would only end as the last one did.
             Ok(next) if !choice.is_no_shorter(&next) => next,
             Ok(_) => choice.shortened(share, aim),
-            // The rounding of so many steps, or a step that fails.
+            // The rounding of so many steps, a step that fails, or a stop, which ends the next run.
             Err(_) => choice.shortened(share, aim),
         };
         choice.chosen.tolerance = tolerance;

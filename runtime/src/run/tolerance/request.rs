@@ -5,6 +5,7 @@ use core::fmt;
 use super::grid::{Bounds, Breaks};
 use super::reached::{Followed, HOPELESS, Reached, reached};
 use super::{Choice, GuardedTrajectory, Methods, ToleranceError, bounded};
+use crate::run::Stop;
 use crate::step::{State, StepError};
 use crate::system::ActingForce;
 
@@ -36,7 +37,7 @@ pub struct Request<'a, L, M> {
 pub struct TimedRequest<'a, L, M> {
     request: Request<'a, L, M>,
     time: f64,
-    bounds: Bounds,
+    bounds: Bounds<'a>,
 }
 
 // By hand: derived, they would ask for a system that is copied.
@@ -146,6 +147,14 @@ impl<'a, L, M> TimedRequest<'a, L, M> {
         self
     }
 
+    /// Ends with [`ToleranceError::Stopped`] as soon as `stop` says so: the choice after two steps, the
+    /// runs of [`end`](Self::end) after [`Stop::STRIDE`]. A run that is handed out ([`run`](Self::run),
+    /// [`Choice::trajectory`]) is in the caller's hands.
+    pub fn stopped_by(mut self, stop: Stop<'a>) -> Self {
+        self.bounds.stop = stop;
+        self
+    }
+
     /// The method and step size for the motion from `start`, with the reasons.
     ///
     /// # Errors
@@ -217,13 +226,26 @@ impl<'a, L, M> TimedRequest<'a, L, M> {
         L: ActingForce<N>,
         M: Methods<L, N>,
     {
-        self.end_followed(start, |run| run.find_map(Result::err).map_or(Ok(()), Err))
+        let stop = self.bounds.stop;
+        self.end_followed(start, |run| {
+            // A run that is stopped says nothing, whatever it is handed on as.
+            while !stop.is_asked() {
+                for _ in 0..Stop::STRIDE {
+                    match run.next() {
+                        Some(step) => drop(step?),
+                        None => return Ok(()),
+                    }
+                }
+            }
+            Ok(())
+        })
     }
 
     /// As [`end`](Self::end), with the steps of each run that is tried taken by `follow`: to record them, or
     /// to watch for events, anew for each. What it leaves of a run is not taken, as behind an event that ends
     /// it; the error of a step that fails it hands on. A run whose error has come to 3·10⁴ times the
-    /// tolerance ends there.
+    /// tolerance ends there. Where the caller may stop the request ([`stopped_by`](Self::stopped_by)),
+    /// `follow` ends as well.
     ///
     /// ```
     /// use dalembert::{Discretise, State, rayleigh_system};

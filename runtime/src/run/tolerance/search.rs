@@ -40,7 +40,7 @@ struct Start<'a, L: Lagrangian<N>, M, const N: usize> {
     state: State<L::Scalar, N>,
     time: f64,
     tolerance: f64,
-    bounds: Bounds,
+    bounds: Bounds<'a>,
     /// The fewest steps by what is known before any is tried.
     fewest: f64,
     /// The fastest rate at which the motion changes.
@@ -95,7 +95,7 @@ pub(super) fn choice<'a, L, M, const N: usize>(
     (system, methods): (&'a L, M),
     state: &State<L::Scalar, N>,
     [time, tolerance]: [f64; 2],
-    bounds: Bounds,
+    bounds: Bounds<'a>,
     passage: Option<Hardest<L::Scalar, N>>,
 ) -> Result<Choice<'a, L, M, N>, ToleranceError>
 where
@@ -203,7 +203,7 @@ where
         (system, methods): (&'a L, M),
         state: State<L::Scalar, N>,
         [time, tolerance]: [f64; 2],
-        bounds: Bounds,
+        bounds: Bounds<'a>,
     ) -> Result<Self, StepError> {
         let velocity = state.velocity(system)?;
         let mut start = Self {
@@ -324,7 +324,7 @@ where
         }
     }
 
-    /// One step from `state` against two half ones.
+    /// One step from `state` against two half ones; neither where the caller has stopped the search.
     fn measure(
         &mut self,
         method: Method,
@@ -332,6 +332,9 @@ where
         state: &State<L::Scalar, N>,
         elapsed: f64,
     ) -> Result<Measured, Option<StepError>> {
+        if self.bounds.stop.is_asked() {
+            return Err(None);
+        }
         let h = L::Scalar::constant(self.time / steps);
         let half = h * L::Scalar::constant(0.5);
         let mut whole = self.methods.step(method, h).ok_or(None)?;
