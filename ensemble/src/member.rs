@@ -1,6 +1,7 @@
 //! A member's records, its end, and why it failed.
 
 use core::fmt;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use dalembert::nalgebra::SVector;
 use dalembert::system::Scalar;
@@ -62,6 +63,14 @@ pub enum MemberError {
     /// The error expected has passed the one asked for on the way: of a [`Stepping`](crate::Stepping) of
     /// one's own that tries one run.
     Breach(Breach),
+    /// L, R or f panicked, or the function that makes the member.
+    Panicked,
+}
+
+/// Does `work` of a member; an error where it panics, so that the others go on.
+pub(crate) fn caught<T>(work: impl FnOnce() -> T) -> Result<T, MemberError> {
+    // What it leaves half done is looked at no more.
+    catch_unwind(AssertUnwindSafe(work)).map_err(|_| MemberError::Panicked)
 }
 
 impl fmt::Display for MemberError {
@@ -73,6 +82,10 @@ impl fmt::Display for MemberError {
                 f,
                 "the error expected passed the {tolerance:e} asked for at t = {time}: {expected:e}; ask for \
                  {instead:e}"
+            ),
+            Self::Panicked => f.write_str(
+                "L, R or f panicked, or what makes the member; run it alone to see where, and return an error \
+                 instead",
             ),
         }
     }

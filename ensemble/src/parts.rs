@@ -254,8 +254,8 @@ where
     /// The last row of a member that failed.
     fn add_failure(&self, rows: &mut Vec<Row<N>>, failure: &crate::Failure<L::Scalar, N>) {
         let error = Some(failure.error.to_string());
-        let row = match (&failure.last, (self.study.members)(failure.number)) {
-            (Some(last), Ok((system, _))) => {
+        let row = match (&failure.last, self.study.start(failure.number)) {
+            (Some(last), Ok(Ok((system, _)))) => {
                 Row::of(failure.number, &system, &self.columns, last.time, &last.state)
             }
             _ => Row::without_start(failure.number),

@@ -9,7 +9,7 @@ use dalembert::system::Scalar;
 use dalembert::tolerance::{Methods, OffersMethods, ToleranceError};
 use dalembert::{Discretise, Lagrangian, State, StepError};
 
-use crate::member::{End, Failure, Record};
+use crate::member::{End, Failure, MemberError, Record, caught};
 
 /// A member while it is stepped, and what is kept of it.
 #[derive(Clone, Debug)]
@@ -194,14 +194,14 @@ impl<S: Scalar> Plan<S> {
             if stop.is_asked() {
                 return Err(NoEnd::Stopped);
             }
-            for _ in 0..Stop::STRIDE.min(next - steps) {
-                // A trajectory ends after an error alone.
-                if let Some(Err(error)) = run.next() {
-                    let last = Some(End { number, time: run.time(), state: *run.state() });
-                    return Err(Failure { number, error: error.into(), last }.into());
-                }
-                steps += 1;
+            let part = Stop::STRIDE.min(next - steps);
+            // A trajectory ends after an error alone.
+            let mut take = || (0..part).try_for_each(|_| run.next().map_or(Ok(()), |step| step.map(drop)));
+            if let Err(error) = caught(&mut take).and_then(|taken| taken.map_err(MemberError::from)) {
+                let last = Some(End { number, time: run.time(), state: *run.state() });
+                return Err(Failure { number, error, last }.into());
             }
+            steps += part;
             if steps < next {
                 continue;
             }
@@ -244,11 +244,12 @@ where
     ) -> ControlFlow<()> {
         one_by_one(members, |number, system, start, value| {
             let request = system.to_error(self.tolerance).until(self.time).stopped_by(stop);
-            let reached = request.end(start).map_err(|error| match error {
-                ToleranceError::Stopped => NoEnd::Stopped,
+            let reached = caught(|| request.end(start)).and_then(|end| end.map_err(MemberError::from));
+            let reached = reached.map_err(|error| match error {
+                MemberError::Tolerance(ToleranceError::Stopped) => NoEnd::Stopped,
                 error => {
                     let last = Some(End { number, time: 0.0, state: *start });
-                    Failure { number, error: error.into(), last }.into()
+                    Failure { number, error, last }.into()
                 }
             })?;
             let (steps, state) = (reached.choice.steps(), reached.state);

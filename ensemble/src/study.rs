@@ -12,7 +12,7 @@ use dalembert::{Gauss, Lagrangian, State, StepError};
 use rayon::prelude::*;
 
 use crate::lanes::InLanes;
-use crate::member::{End, Failure, Record};
+use crate::member::{End, Failure, MemberError, Record, caught};
 use crate::progress::{Cancelled, Progress};
 use crate::stepping::{OneByOne, Plan, Slot, Stepping, ToError};
 
@@ -84,6 +84,9 @@ type Callback<'f> = Box<dyn Fn(Progress) -> ControlFlow<()> + Sync + 'f>;
 
 /// A member's system and start, or why there is none.
 pub(crate) type Start<L, const N: usize> = Result<(L, State<<L as Lagrangian<N>>::Scalar, N>), StepError>;
+
+/// In place of the error of a start whose making panicked.
+pub(crate) const NO_START: StepError = StepError::StepSize { h: 0.0 };
 
 /// Whether a member has arrived.
 type Arrival<'f, L, const N: usize> = Box<dyn Fn(&Record<'_, L, N>) -> bool + Sync + 'f>;
@@ -388,18 +391,28 @@ where
             let end = numbers.end.min(first.saturating_add(window));
             let chunk = |first: u64| {
                 let numbers = first..end.min(first.saturating_add(size));
+                let mut panicked = Vec::new();
                 let slots: Option<Vec<Slot<L, V, N>>> = numbers
                     .map(|number| {
                         if stop.is_asked() {
                             return None;
                         }
-                        let start = (self.members)(number);
+                        let start = self.start(number).unwrap_or_else(|_| {
+                            panicked.push(number);
+                            Err(NO_START)
+                        });
                         Some(Slot { number, value: value(number, &start), start, failure: None })
                     })
                     .collect();
                 let mut slots = slots?;
                 if self.stepping.advance(&mut slots, &observe, stop).is_break() {
                     return None;
+                }
+                for Slot { number, failure, .. } in &mut slots {
+                    if panicked.contains(number) {
+                        *failure =
+                            Some(Failure { number: *number, error: MemberError::Panicked, last: None });
+                    }
                 }
                 let outcome = |Slot { number, value, failure, .. }| Outcome { number, value, failure };
                 let outcomes: Vec<_> = slots.into_iter().map(outcome).collect();
@@ -424,6 +437,11 @@ where
         // All is done: there is nothing left to cancel.
         self.is_cancelled(progress);
         Ok(total)
+    }
+
+    /// A member's system and start, unless the function that makes them panics.
+    pub(crate) fn start(&self, number: u64) -> Result<Start<L, N>, MemberError> {
+        caught(|| (self.members)(number))
     }
 
     pub(crate) fn is_flagged(&self) -> bool {

@@ -19,6 +19,7 @@ use super::table::Table;
 use super::{Computed, Parts, Written, encoding, metadata, names, starts};
 use crate::progress::Progress;
 use crate::stepping::Stepping;
+use crate::study::NO_START;
 
 impl<F, M, L, const N: usize> Parts<'_, '_, F, M, L, N>
 where
@@ -101,7 +102,8 @@ where
     /// The digest of all members of a part as they start, made anew; none where the call is cancelled.
     fn starts(&self, part: &Range<u64>) -> Option<u128> {
         let start_of = |number: u64| {
-            (!self.study.is_flagged()).then(|| self.start_of(part, number, &(self.study.members)(number)))
+            let start = || self.study.start(number).unwrap_or(Err(NO_START));
+            (!self.study.is_flagged()).then(|| self.start_of(part, number, &start()))
         };
         let all: Option<Vec<u128>> = part.clone().into_par_iter().map(start_of).collect();
         all.map(|all| starts::of_all(&all))

@@ -114,6 +114,9 @@ pub fn of_member<'py>(py: Python<'py>, failed: &Failed) -> PyResult<Bound<'py, P
             step_error(py, message, error, None, *time, state, None)
         }
         WhyFailed::Member(MemberError::Tolerance(_)) => classes(py)?.tolerance.bind(py).call1((message,)),
+        WhyFailed::Member(MemberError::Panicked) => {
+            Ok(PyRuntimeError::new_err(message).into_value(py).into_bound(py).into_any())
+        }
         WhyFailed::Events(_) => classes(py)?.event.bind(py).call1((message,)),
         WhyFailed::Member(_) => classes(py)?.breach.bind(py).call1((message,)),
     }

@@ -2,6 +2,7 @@
 
 use core::ops::ControlFlow;
 use core::sync::atomic::Ordering;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use dalembert_ensemble::MemberError;
 use rayon::prelude::*;
@@ -87,7 +88,8 @@ fn run(
         true => ControlFlow::Break(()),
         false => ControlFlow::Continue(()),
     };
-    let ran = system.run(&run, &Watch::new(&look));
+    let watch = Watch::new(&look);
+    let ran = catch_unwind(AssertUnwindSafe(|| system.run(&run, &watch)));
     control.done.fetch_add(1, Ordering::Relaxed);
     let number = asked.first + member as u64;
     let without_start = |error| {
@@ -95,6 +97,7 @@ fn run(
         let events = vec![Found::default(); events.len()];
         Ok(Member { record: Record::default(), has_end: false, events, failed: Some(failed) })
     };
+    let Ok(ran) = ran else { return without_start(MemberError::Panicked.into()) };
     match ran {
         Ok(ran) => outcome(ran, number),
         Err(Refusal::Start(failure)) => without_start(MemberError::Step(failure.error).into()),
