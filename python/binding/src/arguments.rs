@@ -9,8 +9,10 @@ use pyo3::types::PyDict;
 /// The array of `float64` that is given, whatever its shape.
 ///
 /// # Errors
-/// `TypeError` where entries would lose digits or are no numbers.
+/// `TypeError` where the type of the entries does not fit, `ValueError` where one of them would lose digits
+/// or is masked.
 pub fn array<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
+    require_unmasked(name, given)?;
     if let Ok(array) = given.cast::<PyArrayDyn<f64>>()
         && array.is_c_contiguous()
     {
@@ -26,11 +28,52 @@ pub fn array<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<PyReadonlyA
             "{name}: expected numbers of dtype float64, or of one that it holds; got {dtype}"
         )));
     }
+    require_exact(name, &array)?;
     let keywords = PyDict::new(py);
     keywords.set_item("dtype", float64)?;
     keywords.set_item("order", "C")?;
     let array = numpy.call_method("asarray", (array,), Some(&keywords))?;
     Ok(array.cast_into::<PyArrayDyn<f64>>()?.try_readonly()?)
+}
+
+/// Fails where entries of a masked array are masked: as plain numbers they would count.
+fn require_unmasked(name: &str, given: &Bound<'_, PyAny>) -> PyResult<()> {
+    if given.getattr_opt("mask")?.is_none() {
+        return Ok(());
+    }
+    let is_masked = given.py().import("numpy")?.getattr("ma")?.call_method1("is_masked", (given,))?;
+    if is_masked.is_truthy()? {
+        return Err(PyValueError::new_err(format!(
+            "{name}: entries are masked; fill them, as by .filled(0.0), or leave them out"
+        )));
+    }
+    Ok(())
+}
+
+/// The integers above which not every one is a `float64`.
+const MOST_EXACT: i128 = 1 << f64::MANTISSA_DIGITS;
+
+/// Fails where whole numbers are not those of a `float64`.
+fn require_exact(name: &str, array: &Bound<'_, PyAny>) -> PyResult<()> {
+    let dtype = array.getattr("dtype")?;
+    let (kind, size): (String, usize) =
+        (dtype.getattr("kind")?.extract()?, dtype.getattr("itemsize")?.extract()?);
+    let entries: usize = array.getattr("size")?.extract()?;
+    if !matches!(kind.as_str(), "i" | "u") || size < 8 || entries == 0 {
+        return Ok(());
+    }
+    let end = |which: &str| -> PyResult<i128> { array.call_method0(which)?.call_method0("item")?.extract() };
+    if end("min")? >= -MOST_EXACT && end("max")? <= MOST_EXACT {
+        return Ok(());
+    }
+    let entries: Vec<i128> = array.call_method0("ravel")?.call_method0("tolist")?.extract()?;
+    match entries.into_iter().find(|&entry| entry as f64 as i128 != entry) {
+        Some(entry) => Err(PyValueError::new_err(format!(
+            "{name}: {entry} is no float64, and would be rounded to {:.0}; round it yourself if that is meant",
+            entry as f64
+        ))),
+        None => Ok(()),
+    }
 }
 
 /// A vector of `n` numbers.
@@ -113,6 +156,7 @@ fn typed(field: &Field, like: Number, given: &Bound<'_, PyAny>) -> PyResult<(Vec
         let of = |value: f64| if is_single { Number::F32(value as f32) } else { Number::F64(value) };
         return Ok((numbers(&array).into_iter().map(of).collect(), array.shape().to_vec()));
     }
+    require_unmasked(name, given)?;
     let array = given.py().import("numpy")?.call_method1("asarray", (given,))?;
     let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
     if !matches!(kind.as_str(), "i" | "u") {

@@ -1,6 +1,9 @@
 //! Ensembles as Python sees them: what is given, how it is watched, what is returned.
 
+use core::any::Any;
 use core::sync::atomic::Ordering;
+use std::io;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::sync::{Mutex, PoisonError};
@@ -9,7 +12,7 @@ use std::thread;
 use dalembert_c::Number;
 use dalembert_ensemble::parts::{self, PartsError};
 use numpy::{PyArrayDyn, PyUntypedArrayMethods};
-use pyo3::exceptions::{PyOSError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyOSError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyModule};
 
@@ -19,6 +22,7 @@ use crate::error::{of_member, of_memory, of_refusal};
 use crate::events::Event;
 use crate::many::{Asked, Control, FieldOfMembers, FoundOfMembers, Kept, NoResult, Rows, Written};
 use crate::model::{Kind, Model, Stepping};
+use crate::pickled::{Reduced, reduced};
 use crate::results::{Crossings, to_array};
 use crate::watch::PATIENCE;
 use crate::{pool, watched};
@@ -44,6 +48,23 @@ pub struct Ends {
 
 #[pymethods]
 impl Ends {
+    #[staticmethod]
+    fn _restored(
+        t: Py<PyArrayDyn<f64>>,
+        q: Py<PyArrayDyn<f64>>,
+        v: Py<PyArrayDyn<f64>>,
+        p: Py<PyArrayDyn<f64>>,
+        energy: Py<PyArrayDyn<f64>>,
+        events: Vec<Py<Crossings>>,
+        failures: Py<PyDict>,
+    ) -> Self {
+        Self { t, q, v, p, energy, events, failures }
+    }
+
+    fn __reduce__<'py>(this: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(this, &["t", "q", "v", "p", "energy", "events", "failures"])
+    }
+
     fn __len__(&self, py: Python<'_>) -> usize {
         self.t.bind(py).shape()[0]
     }
@@ -264,11 +285,12 @@ fn followed<T: Send>(
         thread::scope(|scope| {
             let (send, receive) = sync_channel(1);
             // The receiver is there until the result is.
-            scope.spawn(move || drop(send.send(work())));
+            scope.spawn(move || drop(send.send(catch_unwind(AssertUnwindSafe(work)))));
             let mut interruption = None;
             loop {
                 match receive.recv_timeout(PATIENCE) {
-                    Ok(result) => {
+                    Ok(Err(panic)) => return Err(of_panic(&*panic)),
+                    Ok(Ok(result)) => {
                         return match interruption.or_else(|| look().err()) {
                             None => Ok(result),
                             Some(error) => Err(error),
@@ -283,12 +305,18 @@ fn followed<T: Send>(
                         }
                     }
                     Err(RecvTimeoutError::Disconnected) => {
-                        return Err(PyValueError::new_err("a member panicked: L, R or f did"));
+                        return Err(PyRuntimeError::new_err("the ensemble has no result"));
                     }
                 }
             }
         })
     })
+}
+
+/// The exception of what panicked beside the members.
+fn of_panic(panic: &(dyn Any + Send)) -> PyErr {
+    let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+    PyRuntimeError::new_err(format!("the ensemble panicked: {}", text.unwrap_or("without a word")))
 }
 
 fn ends(py: Python<'_>, kept: Kept, members: usize, n: usize, has_records: bool) -> PyResult<Ends> {
@@ -321,8 +349,20 @@ fn of_no_result(py: Python<'_>, reason: NoResult, rule: Option<&str>, kind: &dyn
         NoResult::Refused(refusal) => of_refusal(py, refusal, rule, &kind.rules()),
         NoResult::Cancelled => PyValueError::new_err("cancelled"),
         NoResult::TooLarge(reason) => of_memory(&reason),
-        NoResult::Parts(error @ PartsError::Io { .. }) => PyOSError::new_err(error.to_string()),
+        NoResult::Parts(PartsError::Io { path, source }) => of_files(path, &source),
         NoResult::Parts(error) => PyValueError::new_err(error.to_string()),
+    }
+}
+
+/// The exception of a file, of the class that Python has for its number.
+fn of_files(path: PathBuf, source: &io::Error) -> PyErr {
+    let text = source.to_string();
+    match source.raw_os_error() {
+        Some(number) => {
+            let text = text.trim_end_matches(&format!(" (os error {number})"));
+            PyOSError::new_err((number, text.to_owned(), path.into_os_string()))
+        }
+        None => PyOSError::new_err(format!("{}: {text}", path.display())),
     }
 }
 

@@ -43,6 +43,7 @@ pub mod module;
 pub mod motion;
 #[doc(hidden)]
 pub mod offer;
+mod pickled;
 mod pool;
 #[doc(hidden)]
 pub mod record;

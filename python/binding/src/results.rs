@@ -9,6 +9,7 @@ use pyo3::types::{PyDict, PyModule};
 
 use crate::events::Found;
 use crate::model::{Linearized, Ran};
+use crate::pickled::{Reduced, reduced};
 use crate::record::Record;
 
 /// An array of `float64` that takes over `numbers`: nothing is copied.
@@ -40,6 +41,15 @@ pub struct Breach {
 
 #[pymethods]
 impl Breach {
+    #[staticmethod]
+    fn _restored(t: f64, expected: f64, tolerance: f64, instead: f64) -> Self {
+        Self { t, expected, tolerance, instead }
+    }
+
+    fn __reduce__<'py>(this: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(this, &["t", "expected", "tolerance", "instead"])
+    }
+
     fn __repr__(&self) -> String {
         let Self { t, expected, tolerance, instead } = self;
         format!("Breach(t={t:?}, expected={expected:e}, tolerance={tolerance:e}, instead={instead:e})")
@@ -117,6 +127,21 @@ impl Crossings {
 
 #[pymethods]
 impl Crossings {
+    #[staticmethod]
+    fn _restored(
+        member: Option<Py<PyArray1<i64>>>,
+        t: Py<PyArray1<f64>>,
+        q: Py<PyArray2<f64>>,
+        v: Py<PyArray2<f64>>,
+        p: Py<PyArray2<f64>>,
+    ) -> Self {
+        Self { member, t, q, v, p }
+    }
+
+    fn __reduce__<'py>(this: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(this, &["member", "t", "q", "v", "p"])
+    }
+
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
         self.t.bind(py).len()
     }
@@ -217,6 +242,48 @@ pub fn partial<'py>(py: Python<'py>, record: &mut Record, n: usize) -> PyResult<
 
 #[pymethods]
 impl Run {
+    #[staticmethod]
+    #[allow(clippy::too_many_arguments, reason = "all attributes")]
+    fn _restored(
+        t: Py<PyArray1<f64>>,
+        q: Py<PyArray2<f64>>,
+        v: Py<PyArray2<f64>>,
+        p: Py<PyArray2<f64>>,
+        energy: Py<PyArray1<f64>>,
+        by_start: Option<Py<PyArray3<f64>>>,
+        by_parameters: Option<Py<PyArray3<f64>>>,
+        steps: u64,
+        iterations: u64,
+        h: f64,
+        rule: String,
+        expected: Option<f64>,
+        breach: Option<Py<Breach>>,
+        events: Vec<Py<Crossings>>,
+    ) -> Self {
+        Self {
+            t,
+            q,
+            v,
+            p,
+            energy,
+            by_start,
+            by_parameters,
+            steps,
+            iterations,
+            h,
+            rule,
+            expected,
+            breach,
+            events,
+        }
+    }
+
+    fn __reduce__<'py>(this: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let of_records = ["t", "q", "v", "p", "energy", "by_start", "by_parameters"];
+        let of_run = ["steps", "iterations", "h", "rule", "expected", "breach", "events"];
+        reduced(this, &[of_records, of_run].concat())
+    }
+
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
         self.t.bind(py).len()
     }
