@@ -4,6 +4,7 @@
 //! that of an object of the type declared; the objects of a call do not overlap; nobody else uses them
 //! meanwhile.
 
+use dalembert::nalgebra::ComplexField;
 use dalembert::run::DrivenTrajectory;
 use dalembert::step::{Flow, Report};
 
@@ -158,6 +159,9 @@ pub unsafe fn energy<I: Interface<N>, const N: usize>(
     let ask = |Machine { system, run }: &Machine<I, N>| {
         seen(energy)?;
         let value = run.state().energy(&I::view(system, given()?))?;
+        if !value.is_finite() {
+            return Err(Status::DerivativesNotFinite);
+        }
         // SAFETY: the caller's promise.
         unsafe { write(energy, value) }
     };

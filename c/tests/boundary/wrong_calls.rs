@@ -236,3 +236,14 @@ fn every_status_has_a_text_that_ends_and_a_number_that_stays() {
         assert_eq!(text.to_str(), Ok("no status of this library"));
     }
 }
+
+#[test]
+fn an_energy_that_is_no_number_is_refused() {
+    // The kinetic energy overflows at the second speed, its momentum does not.
+    for (speed, expected) in [(1e100, Status::Ok), (1e160, Status::DerivativesNotFinite)] {
+        let (mut memory, mut energy) = (Memory::zeroed(), 7.0);
+        assert_eq!(init(&mut memory, &PARAMETERS, 0.01, [0.0, 0.2], [speed, 0.0]), Status::Ok);
+        assert_eq!(unsafe { cart_pole::energy(memory.as_ptr(), &mut energy) }, expected);
+        assert!((energy == 7.0) == (expected != Status::Ok) && energy.is_finite());
+    }
+}
