@@ -25,6 +25,8 @@ LONG = {
     "run": f"{STAR}.run(h=0.1, steps={FOR_EVER}, every={FOR_EVER}, {AT})",
     "run to a tolerance": f"{STAR}.run(tolerance=1e-11, until=1e6, every={FOR_EVER}, {AT})",
     "run to a tolerance, with events": f"{STAR}.run(tolerance=1e-11, until=1e6, every={FOR_EVER}, {PLANE}, {AT})",
+    # The choice alone takes half a second.
+    "choice for a tolerance": f"Ring(0.0).run(tolerance=1e-5, until=1e7, every={FOR_EVER}, q=[0.0, 1.0], v=[0.1, 0.0])",
     "ledger": f"{STAR}.energy_ledger(h=0.1, steps={FOR_EVER}, {AT})",
     "members": f"{STAR}.ensemble(h=0.1, steps={FOR_EVER}, {MEMBERS})",
     "members by Gauss": f"{STAR}.ensemble(h=0.1, steps={FOR_EVER}, rule='gauss_4', {MEMBERS})",
@@ -39,7 +41,7 @@ def test_ctrl_c_ends_every_call():
     program = (
         "import signal\n"
         "import numpy as np\n"
-        "from dalembert_scenes import HenonHeiles, Plane\n"
+        "from dalembert_scenes import HenonHeiles, Plane, Ring\n"
         # A shell starts what runs in the background with Ctrl-C switched off.
         "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "print('begun', flush=True)\n"
