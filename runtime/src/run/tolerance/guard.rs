@@ -15,6 +15,8 @@ use super::unresolved::Unresolved;
 use super::{
     Breach, Choice, Chosen, LastStep, MethodStep, Methods, OffersMethods, ToleranceError, local_error,
 };
+#[cfg(feature = "serde")]
+use crate::numbers::Scalar;
 use crate::run::present::at_present;
 use crate::run::{Run, Samples};
 use crate::step::{State, Step, StepError};
