@@ -58,7 +58,10 @@ def main():
         def kill(done, _):
             if moments and done >= moments[0]:
                 moments.pop(0)
-                worker = chance.choice(sorted(client.run(os.getpid).values()))
+                # One that was killed just before may not be missed yet.
+                while not (living := sorted(client.run(os.getpid, on_error="ignore").values())):
+                    time.sleep(0.1)
+                worker = chance.choice(living)
                 os.kill(worker, signal.SIGKILL)
                 killed.append(done)
 
