@@ -51,8 +51,8 @@ pub(super) enum Rounding {
     Any,
 }
 
-/// The solution at `v`, where the Newton matrix is `matrix`; nothing if it is none. Where more than the floor
-/// may explain the residual, the present matrix is another one then.
+/// The solution at `v`, where the Newton matrix is `matrix`; nothing if it is none. With [`Rounding::Any`]
+/// the present matrix may be another one then.
 #[inline(never)]
 pub(super) fn verified<S: Precision>(
     of: &mut Equations<'_, S>,

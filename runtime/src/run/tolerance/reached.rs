@@ -21,7 +21,7 @@ const ACCEPTED: f64 = 0.7;
 /// The share of an aim that the next one is at least: errors as large as the motion say little.
 const LEAST: f64 = 1e-5;
 
-/// The error expected, over the tolerance, from which on more of it changes nothing of the next run.
+/// The error expected, over the tolerance, beyond which a run ends: it has shown where it errs.
 pub(super) const HOPELESS: f64 = AIM / LEAST;
 
 /// By so much the steps of a method are shortened, where no method is expected to reach a smaller error.
