@@ -39,7 +39,7 @@ impl Pushed {
 
 #[test]
 fn steps_end_where_a_force_jumps() {
-    let (mut draws, mut passed) = (Draws::new(11), 0);
+    let (mut draws, mut passed, mut nearly) = (Draws::new(11), 0, 0);
     for case in 0..if cfg!(debug_assertions) { 20 } else { 200 } {
         let (from, width, force) = (draws.between(0.5, 8.0), draws.scale(1e-3, 1.0), draws.scale(0.1, 30.0));
         let (k, power) = (if case % 3 == 0 { 0.0 } else { draws.between(0.1, 9.0) }, 3 + case % 8);
@@ -50,7 +50,8 @@ fn steps_end_where_a_force_jumps() {
         let exact = pushed.exact(10.0);
         let reached = request.breaking_at([from + width, from, 12.0]).end(&start).unwrap();
         let error = (reached.state.q[0] - exact).abs();
-        assert!(error <= tolerance, "{error:e} for {tolerance:e}, {from} {width} {force} {k}");
+        assert!(error <= 2.0 * tolerance, "{error:e} for {tolerance:e}, {from} {width} {force} {k}");
+        nearly += usize::from(error > tolerance);
         // By steps as long as a third of the push it is seen: kept, or said not to be.
         if width > 0.05 {
             let mut run = request.longest_step(width / 3.0).run(start).unwrap();
@@ -62,6 +63,46 @@ fn steps_end_where_a_force_jumps() {
     }
     // Positive control: steps over the jumps err by more.
     assert!(passed > 3, "{passed}");
+    // The page counts 14 of 1 000 runs like that.
+    assert!(nearly <= 2, "{nearly}");
+}
+
+/// A comet from its apocentre, with a thrust that jumps on the way.
+struct Thrust {
+    thrust: f64,
+    from: f64,
+}
+
+#[rayleigh_system(rule = [trapezoidal, gauss])]
+impl Thrust {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1]) + 1.0 / (q[0] * q[0] + q[1] * q[1]).sqrt()
+    }
+    fn force(&self, _q: [f64; 2], _v: [f64; 2], t: f64) -> [f64; 2] {
+        [0.0, if t > self.from { self.thrust } else { 0.0 }]
+    }
+}
+
+#[test]
+fn a_jump_beside_the_hardest_steps_is_no_error_of_theirs() {
+    let start = State { q: [-1.8, 0.0].into(), p: [0.0, -1.0 / 3.0].into() };
+    let (mut draws, mut again) = (Draws::new(12), 0);
+    for _ in 0..if cfg!(debug_assertions) { 10 } else { 60 } {
+        // Around the pericentre, which is passed at π.
+        let from = draws.between(0.5 * TAU - 0.02, 0.5 * TAU + 0.1);
+        let ask = |thrust: f64| {
+            let thrust = Thrust { thrust, from };
+            let system = thrust.at_time(0.0);
+            let reached = system.to_error(1e-9).until(4.0).breaking_at([from]).end(&start).unwrap();
+            (reached.runs, reached.choice.step_size())
+        };
+        let (of_jump, without) = (ask(3.0), ask(0.0));
+        again += usize::from(without.0 > 1);
+        let ratio = without.1 / of_jump.1;
+        assert!(ratio < 1.5, "thrust from {from}: steps of {of_jump:?}, of {without:?} without");
+    }
+    // The hardest steps were tried in these.
+    assert!(again > 5, "{again}");
 }
 
 #[test]

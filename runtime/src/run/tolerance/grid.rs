@@ -151,6 +151,11 @@ impl Segment {
     pub(super) fn from(&self) -> f64 {
         self.from
     }
+
+    /// Where it ends.
+    pub(super) fn to(&self) -> f64 {
+        self.to
+    }
 }
 
 /// The segments of a run.

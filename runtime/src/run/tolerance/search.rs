@@ -350,6 +350,8 @@ where
     }
 
     /// The largest local error in the passage, times the share of the steps that err so.
+    ///
+    /// It ends where the system breaks: no step of a run goes over that, and the jump is no error of one.
     fn measure_passage(
         &mut self,
         method: Method,
@@ -357,11 +359,17 @@ where
         passage: &Hardest<L::Scalar, N>,
     ) -> Result<f64, Option<StepError>> {
         let Hardest { mut state, mut elapsed, span, .. } = *passage;
-        let h = self.time / steps;
+        let (time, breaks) = (self.time, self.bounds.breaks);
+        let mut segments = segments(time, time / steps, &breaks);
+        let Some(segment) = segments.find(|segment| elapsed < segment.to()) else { return Ok(0.0) };
+        let left = segment.to() - elapsed;
+        let h = segment.step_size().min(left);
+        let fitting = ComplexField::floor(left / h * (1.0 + 1e-12));
+        let count = ComplexField::ceil(span / h).min(fitting);
         let mut largest = 0.0_f64;
         let mut step = self.methods.step(method, L::Scalar::constant(h)).ok_or(None)?;
-        for _ in 0..(ComplexField::ceil(span / h) as u32).clamp(1, PASSING) {
-            largest = largest.max(self.measure(method, steps, &state, elapsed)?.local);
+        for _ in 0..(count as u32).clamp(1, PASSING) {
+            largest = largest.max(self.measure(method, time / h, &state, elapsed)?.local);
             let taken = step.advance(self.system, elapsed, &state).map_err(Some)?;
             self.spent += taken.evaluations;
             (state, elapsed) = (taken.step.state, elapsed + h);
