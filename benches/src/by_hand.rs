@@ -22,8 +22,9 @@ pub use ring::Ring;
 pub use spring_chain::SpringChain;
 
 use dalembert::nalgebra::SVector;
+use dalembert::rules::Fused;
 use dalembert::step::{Memory, Momenta, NewtonMatrix, StepKernel};
-use dalembert::system::{Derivatives, Gradient};
+use dalembert::system::{ActingForce, Derivatives, Gradient};
 use dalembert::{Discrete, Lagrangian, Midpoint};
 
 /// What a step evaluates, by hand.
@@ -72,22 +73,12 @@ impl<K: HandDerived<N>, const N: usize> Lagrangian<N> for ByHand<K> {
     }
 }
 
-impl<K: HandDerived<N>, const N: usize> Discrete<Midpoint, N> for ByHand<K> {
+/// As without a force: what steps evaluate of it is in their equation, and nothing else is asked for.
+impl<K: HandDerived<N>, const N: usize> ActingForce<N> for ByHand<K> {}
+
+impl<K: HandDerived<N>, const N: usize> Fused<Midpoint, N> for ByHand<K> {
     type Matrix = K::Matrix;
     type Memory = K::Memory;
-
-    fn discrete_lagrangian(&self, q0: &SVector<f64, N>, q1: &SVector<f64, N>, h: f64) -> f64 {
-        self.0.generated().discrete_lagrangian(q0, q1, h)
-    }
-
-    fn discrete_lagrangian_derivatives(
-        &self,
-        q0: &SVector<f64, N>,
-        q1: &SVector<f64, N>,
-        h: f64,
-    ) -> Derivatives<f64, N> {
-        self.0.generated().discrete_lagrangian_derivatives(q0, q1, h)
-    }
 
     #[inline]
     fn step_kernel(
@@ -102,9 +93,5 @@ impl<K: HandDerived<N>, const N: usize> Discrete<Midpoint, N> for ByHand<K> {
     #[inline]
     fn momenta(&self, q0: &SVector<f64, N>, v: &SVector<f64, N>, h: f64) -> Momenta<f64, N> {
         self.0.momenta(q0, v, h)
-    }
-
-    fn segment_energy(&self, q0: &SVector<f64, N>, q1: &SVector<f64, N>, h: f64) -> f64 {
-        self.0.generated().segment_energy(q0, q1, h)
     }
 }

@@ -5,11 +5,11 @@
 //! ∂V/∂q = 2V′ q,  ∂²V/∂q² = 2V′ I + 4V″ q qᵀ      V′ = (s − 1)(3s − 1),  V″ = 6s − 4
 //! ```
 
-use dalembert::rules::DisplacementRule;
+use dalembert::rules::{DisplacementRule, Fused};
 use dalembert::run::VelocityHistory;
-use dalembert::step::{DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, StepKernel};
-use dalembert::system::Derivatives;
-use dalembert::{Discrete, Lagrangian, Midpoint, Rayleigh};
+use dalembert::step::{Momenta, StepKernel};
+use dalembert::system::{ActingForce, Derivatives};
+use dalembert::{Lagrangian, Midpoint, Rayleigh};
 use nalgebra::{Matrix2, Vector2};
 
 /// A particle in the ring potential with isotropic drag, as in the scene `ring`.
@@ -56,36 +56,18 @@ impl Rayleigh<2> for RingByHand {
     }
 }
 
+impl ActingForce<2> for RingByHand {
+    const HAS_RAYLEIGH: bool = true;
+
+    fn dissipation_derivatives(&self, q: &Vector2<f64>, v: &Vector2<f64>) -> Derivatives<f64, 2> {
+        self.rayleigh_derivatives(q, v)
+    }
+}
+
 /// The rule supplies the formulas; a system sums one term for each of L and R.
-impl Discrete<Midpoint, 2> for RingByHand {
+impl Fused<Midpoint, 2> for RingByHand {
     type Matrix = Matrix2<f64>;
     type Memory = VelocityHistory<f64, 2>;
-
-    fn discrete_lagrangian(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> f64 {
-        Midpoint::discrete_lagrangian(self, q0, q1, h)
-    }
-
-    fn discrete_lagrangian_derivatives(
-        &self,
-        q0: &Vector2<f64>,
-        q1: &Vector2<f64>,
-        h: f64,
-    ) -> Derivatives<f64, 2> {
-        Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
-    }
-
-    fn discrete_force(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> DiscreteForce<f64, 2> {
-        Midpoint::rayleigh_force(self, q0, q1, h)
-    }
-
-    fn discrete_force_derivatives(
-        &self,
-        q0: &Vector2<f64>,
-        q1: &Vector2<f64>,
-        h: f64,
-    ) -> DiscreteForceDerivatives<f64, 2> {
-        Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
-    }
 
     fn step_kernel(&self, q0: &Vector2<f64>, v: &Vector2<f64>, h: f64) -> StepKernel<f64, 2> {
         Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0, v, h)
@@ -93,24 +75,5 @@ impl Discrete<Midpoint, 2> for RingByHand {
 
     fn momenta(&self, q0: &Vector2<f64>, v: &Vector2<f64>, h: f64) -> Momenta<f64, 2> {
         Midpoint::lagrangian_momenta(self, q0, v, h) + Midpoint::rayleigh_momenta(self, q0, v, h)
-    }
-
-    fn segment_energy(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> f64 {
-        Midpoint::segment_energy(self, q0, q1, h)
-    }
-}
-
-impl DiscreteRayleigh<Midpoint, 2> for RingByHand {
-    fn discrete_rayleigh(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> f64 {
-        Midpoint::discrete_rayleigh(self, q0, q1, h)
-    }
-
-    fn discrete_rayleigh_derivatives(
-        &self,
-        q0: &Vector2<f64>,
-        q1: &Vector2<f64>,
-        h: f64,
-    ) -> Derivatives<f64, 2> {
-        Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
     }
 }

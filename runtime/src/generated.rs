@@ -12,8 +12,7 @@ pub use crate::numbers::{
 };
 #[doc(no_inline)]
 pub use crate::rules::{
-    DisplacementRule, Fitted, FittedTrapezoidal, Gauss, JointRayleighRule, JointRule, Midpoint, OneSided,
-    Trapezoidal,
+    DisplacementRule, Fitted, FittedTrapezoidal, Fused, Gauss, JointRule, Midpoint, OneSided, Trapezoidal,
 };
 #[doc(no_inline)]
 pub use crate::run::tolerance::{OffersMethods, WithGauss, WithSplittings};

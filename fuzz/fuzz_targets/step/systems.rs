@@ -3,11 +3,11 @@
 use std::cell::Cell;
 
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::rules::DisplacementRule;
+use dalembert::rules::{DisplacementRule, Fused};
 use dalembert::run::VelocityHistory;
 use dalembert::step::{Momenta, StepKernel};
-use dalembert::system::Derivatives;
-use dalembert::{Discrete, Lagrangian, Midpoint, rayleigh_system};
+use dalembert::system::{ActingForce, Derivatives};
+use dalembert::{Lagrangian, Midpoint, rayleigh_system};
 
 /// A pendulum with smoothed dry friction and cubic drag.
 #[rayleigh_system(rule = [midpoint, trapezoidal, gauss, one_sided])]
@@ -115,22 +115,11 @@ impl Lagrangian<1> for Counted {
     }
 }
 
-impl Discrete<Midpoint, 1> for Counted {
+impl ActingForce<1> for Counted {}
+
+impl Fused<Midpoint, 1> for Counted {
     type Matrix = SMatrix<f64, 1, 1>;
     type Memory = VelocityHistory<f64, 1>;
-
-    fn discrete_lagrangian(&self, q0: &SVector<f64, 1>, q1: &SVector<f64, 1>, h: f64) -> f64 {
-        Midpoint::discrete_lagrangian(self, q0, q1, h)
-    }
-
-    fn discrete_lagrangian_derivatives(
-        &self,
-        q0: &SVector<f64, 1>,
-        q1: &SVector<f64, 1>,
-        h: f64,
-    ) -> Derivatives<f64, 1> {
-        Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
-    }
 
     fn step_kernel(&self, q0: &SVector<f64, 1>, v: &SVector<f64, 1>, h: f64) -> StepKernel<f64, 1> {
         Midpoint::lagrangian_kernel(self, q0, v, h)
@@ -138,9 +127,5 @@ impl Discrete<Midpoint, 1> for Counted {
 
     fn momenta(&self, q0: &SVector<f64, 1>, v: &SVector<f64, 1>, h: f64) -> Momenta<f64, 1> {
         Midpoint::lagrangian_momenta(self, q0, v, h)
-    }
-
-    fn segment_energy(&self, q0: &SVector<f64, 1>, q1: &SVector<f64, 1>, h: f64) -> f64 {
-        Midpoint::segment_energy(self, q0, q1, h)
     }
 }

@@ -225,18 +225,11 @@ fn stubs(
             #forced_in_lanes
             #midpoint_in_lanes
             #(
-                impl ::dalembert::generated::Discrete<::dalembert::generated::#rules, #n> for #name {
+                impl ::dalembert::generated::Fused<::dalembert::generated::#rules, #n> for #name {
                     type Matrix = ::dalembert::nalgebra::SMatrix<#scalar, #n, #n>;
                     type Memory = ::dalembert::generated::VelocityHistory<#scalar, #n>;
-                    fn discrete_lagrangian(&self, _: #vector, _: #vector, _: #scalar) -> #scalar { ::core::unreachable!() }
-                    fn discrete_lagrangian_derivatives(&self, _: #vector, _: #vector, _: #scalar) -> #derivatives { ::core::unreachable!() }
                     fn step_kernel(&self, _: #vector, _: #vector, _: #scalar) -> ::dalembert::generated::StepKernel<#scalar, #n> { ::core::unreachable!() }
                     fn momenta(&self, _: #vector, _: #vector, _: #scalar) -> ::dalembert::generated::Momenta<#scalar, #n> { ::core::unreachable!() }
-                    fn segment_energy(&self, _: #vector, _: #vector, _: #scalar) -> #scalar { ::core::unreachable!() }
-                }
-                impl ::dalembert::generated::DiscreteRayleigh<::dalembert::generated::#rules, #n> for #name {
-                    fn discrete_rayleigh(&self, _: #vector, _: #vector, _: #scalar) -> #scalar { ::core::unreachable!() }
-                    fn discrete_rayleigh_derivatives(&self, _: #vector, _: #vector, _: #scalar) -> #derivatives { ::core::unreachable!() }
                 }
             )*
         };

@@ -53,12 +53,6 @@ pub struct Entry {
     pub terms: Terms,
     /// Whether a step back is the step of −h, which compositions rest on.
     pub is_self_adjoint: bool,
-    /// The formula of L_d, as documentation.
-    pub lagrangian: &'static str,
-    /// The formula of R_d.
-    pub rayleigh: &'static str,
-    /// The formula of f_d, of the Rayleigh function alone.
-    pub force: &'static str,
 }
 
 /// Where a rule sees the forces on a segment.
@@ -93,10 +87,6 @@ impl Pairs {
 pub enum Terms {
     /// A term for each, which an engine may fuse into one kernel.
     Separate {
-        /// The formula of f_d, of R and f.
-        rayleigh_and_force: &'static str,
-        /// The formula of f_d, of f alone.
-        force: &'static str,
         /// Whether a step may need the force at one point only.
         may_be_explicit: bool,
     },
@@ -110,8 +100,6 @@ pub struct Joint {
     /// Whether it is fitted to free damped motion: it needs constant mass and damping matrices, and a
     /// function of M⁻¹C is full.
     pub is_fitted: bool,
-    /// Whether R_d exists for one coordinate alone.
-    pub is_rayleigh_of_one: bool,
     pub asks_for_variations: bool,
     /// Whether one correction solves its step.
     pub is_linear: bool,
@@ -136,30 +124,16 @@ impl Rule {
                 name: "Midpoint",
                 points: Points::Middle,
                 matrix: Pairs::All,
-                terms: Terms::Separate {
-                    rayleigh_and_force: " f_d⁻ = D1 R_d + (h/2) f(q̄, v̄), f_d⁺ = −D2 R_d + (h/2) f(q̄, v̄).",
-                    force: " f_d⁻ = f_d⁺ = (h/2) f(q̄, v̄).",
-                    may_be_explicit: false,
-                },
+                terms: Terms::Separate { may_be_explicit: false },
                 is_self_adjoint: true,
-                lagrangian: " L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.",
-                rayleigh: " R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.",
-                force: FORCE_OF_RAYLEIGH,
             },
             Self::Trapezoidal => Entry {
                 word: "trapezoidal",
                 name: "Trapezoidal",
                 points: Points::Ends,
                 matrix: Pairs::WithVelocity,
-                terms: Terms::Separate {
-                    rayleigh_and_force: " f_d⁻ = D1 R_d + (h/2) f(q0, v̄), f_d⁺ = −D2 R_d + (h/2) f(q1, v̄).",
-                    force: " f_d⁻ = (h/2) f(q0, v̄), f_d⁺ = (h/2) f(q1, v̄).",
-                    may_be_explicit: true,
-                },
+                terms: Terms::Separate { may_be_explicit: true },
                 is_self_adjoint: true,
-                lagrangian: " L_d = (h/2) [L(q0, v̄) + L(q1, v̄)], with v̄ = (q1 − q0)/h.",
-                rayleigh: " R_d = (h²/4) [R(q0, v̄) + R(q1, v̄)], with v̄ = (q1 − q0)/h.",
-                force: FORCE_OF_RAYLEIGH,
             },
             Self::Fitted => Entry {
                 word: "fitted",
@@ -168,15 +142,11 @@ impl Rule {
                 matrix: Pairs::All,
                 terms: Terms::Joint(Joint {
                     is_fitted: true,
-                    is_rayleigh_of_one: true,
                     asks_for_variations: false,
                     is_linear: false,
                     memory: "DriftMemory",
                 }),
                 is_self_adjoint: true,
-                lagrangian: " L_d = (1/2h) dᵀ M Z coth(Z) d − h V(q̄), with d = q1 − q0, q̄ = (q0 + q1)/2 and Z = ½h M⁻¹C.",
-                rayleigh: " R_d = ¼ dᵀCd − h ℒ(z) V(q̄), with ℒ(z) = coth z − 1/z.",
-                force: " f_d⁻, f_d⁺ = −½ C d ∓ (h/2) ℒ(Z)ᵀ ∇V(q̄), with ℒ(z) = coth z − 1/z.",
             },
             Self::FittedTrapezoidal => Entry {
                 word: "fitted_trapezoidal",
@@ -185,16 +155,12 @@ impl Rule {
                 matrix: Pairs::Velocities,
                 terms: Terms::Joint(Joint {
                     is_fitted: true,
-                    is_rayleigh_of_one: false,
                     asks_for_variations: false,
                     // With a constant matrix and the potential at the ends.
                     is_linear: true,
                     memory: "ExplicitDriftMemory",
                 }),
                 is_self_adjoint: true,
-                lagrangian: " L_d = (1/2h) dᵀ M Z coth(Z) d − (h/2) [V(q0) + V(q1)], with d = q1 − q0 and Z = ½h M⁻¹C.",
-                rayleigh: " R_d = ¼ dᵀCd.",
-                force: FORCE_OF_RAYLEIGH,
             },
             Self::OneSided => Entry {
                 word: "one_sided",
@@ -203,15 +169,11 @@ impl Rule {
                 matrix: Pairs::All,
                 terms: Terms::Joint(Joint {
                     is_fitted: false,
-                    is_rayleigh_of_one: false,
                     asks_for_variations: true,
                     is_linear: false,
                     memory: "VelocityHistory",
                 }),
                 is_self_adjoint: false,
-                lagrangian: " L_d = h L(q̄, v̄) + (h²/2) R(v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.",
-                rayleigh: " R_d = (h²/2) R(v̄).",
-                force: FORCE_OF_RAYLEIGH,
             },
         }
     }
@@ -229,11 +191,6 @@ impl Rule {
         }
     }
 
-    /// Whether it has an R_d, for a system of `n` coordinates.
-    pub fn has_discrete_rayleigh(self, n: Option<usize>) -> bool {
-        n == Some(1) || !self.joint().is_some_and(|joint| joint.is_rayleigh_of_one)
-    }
-
     /// Whether its step may be one that needs the force at one point only.
     pub fn may_be_explicit(self) -> bool {
         matches!(self.entry().terms, Terms::Separate { may_be_explicit: true, .. })
@@ -243,16 +200,4 @@ impl Rule {
     pub fn asks_for_cancelling_terms(self) -> bool {
         self.entry().points == Points::Middle
     }
-
-    /// The formula of f_d, by the parts that the system has.
-    pub fn force(self, of_rayleigh: bool, general: bool) -> &'static str {
-        let entry = self.entry();
-        match (entry.terms, of_rayleigh, general) {
-            (Terms::Separate { rayleigh_and_force, .. }, true, true) => rayleigh_and_force,
-            (Terms::Separate { force, .. }, false, _) => force,
-            _ => entry.force,
-        }
-    }
 }
-
-const FORCE_OF_RAYLEIGH: &str = " f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.";

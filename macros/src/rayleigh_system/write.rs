@@ -2,10 +2,9 @@
 //! function below writes one `impl`, and the comment above each quotation shows what it expands to.
 
 mod continuous;
-mod discrete;
+mod fused;
 mod imports;
 pub mod item;
-mod joint;
 mod on_request;
 pub mod view;
 
@@ -15,7 +14,7 @@ use syn::Ident;
 
 use super::model::System;
 use super::structure::{Engine, Structure};
-pub use discrete::{Kernel, Memory};
+pub use fused::{Kernel, Memory};
 use item::PlainFields;
 
 /// The functions that the runtime's traits ask for, as an engine writes them.
@@ -60,7 +59,12 @@ pub struct EngineFunctions {
 pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
     let is_expanded = matches!(functions.structure.engine, Engine::Expanded);
     let is_explicit = functions.kernels.iter().flatten().any(|kernel| kernel.explicit.is_some());
-    let imports = imports::imports(system, &functions.names, functions.calls_elementary);
+    let may_cancel = functions.cancelling_terms.is_some();
+    let mut names = functions.names;
+    if fused::asks_rules(system, may_cancel, &functions.kernels) {
+        names.push("DisplacementRule");
+    }
+    let imports = imports::imports(system, &names, functions.calls_elementary);
     let lagrangian = continuous::lagrangian(
         system,
         &functions.structure,
@@ -74,7 +78,6 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
         .map(|(arguments, derivatives)| continuous::rayleigh(system, arguments, derivatives));
     let force = functions.force.map(|derivatives| continuous::force(system, derivatives));
     let time_scale = functions.time_scale.map(|function| continuous::time_scale(system, function));
-    let may_cancel = functions.cancelling_terms.is_some();
     let acting = continuous::acting_force(system, functions.cancelling_terms);
     let forced = system
         .rules
@@ -84,12 +87,8 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
     let by_parameters = functions.by_parameters.map(|functions| on_request::by_parameters(system, functions));
     let second_order = functions.second_order.map(|functions| on_request::second_order(system, functions));
     let rules = system.rules.of_displacement.iter().zip(functions.kernels);
-    let discrete = rules.map(|(&rule, kernel)| {
-        let discrete = discrete::discrete(system, rule, (is_expanded, may_cancel), kernel);
-        let rayleigh = system.rayleigh.map(|_| discrete::discrete_rayleigh(system, rule));
-        quote!(#discrete #rayleigh)
-    });
-    let offered_methods = discrete::offered_methods(system, is_explicit);
+    let fused = rules.map(|(&rule, kernel)| fused::fused(system, rule, (is_expanded, may_cancel), kernel));
+    let offered_methods = fused::offered_methods(system, is_explicit);
     let (bindings, plain) = (item::are_bindings(&functions.bindings), functions.plain.implementation);
     let (conditions, quiet) = (item::conditions(system.source), item::quiet());
     let (scalar, n) = (&system.scalar, system.degrees.times(1));
@@ -112,25 +111,9 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
             #driven
             #by_parameters
             #second_order
-            #(#discrete)*
+            #(#fused)*
             #offered_methods
             #bindings
         };
-    }
-}
-
-/// `fn at_nodes`, by the nodes of the rule.
-fn at_nodes(system: &System<'_>, rule: &TokenStream) -> TokenStream {
-    let scalar = &system.scalar;
-    quote! {
-        fn at_nodes(
-            &self,
-            q0: &Vector,
-            v: &Vector,
-            h: #scalar,
-            visit: &mut dyn FnMut(&Self, &Vector, &Vector),
-        ) {
-            #rule::at_nodes(self, q0, v, h, visit);
-        }
     }
 }

@@ -10,6 +10,7 @@
 
 use nalgebra::SVector;
 
+use super::parts::Parts;
 use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Hessian, Scalar};
 use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, MomentaBy, StepKernel};
 use crate::system::{ActingForce, Driven, Force, Lagrangian, Parameters, Rayleigh, SecondOrder};
@@ -185,6 +186,40 @@ pub trait DisplacementRule: Copy {
                 plus: pulled * node.position,
             }
         })
+    }
+
+    /// f_d, of the Rayleigh function and the general force, whichever the system has.
+    fn discrete_force<L: ActingForce<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> DiscreteForce<L::Scalar, N> {
+        let mut force = DiscreteForce::zero();
+        if L::HAS_RAYLEIGH {
+            force = force + Self::rayleigh_force(&Parts::of(system), q0, q1, h);
+        }
+        if L::HAS_FORCE {
+            force = force + Self::general_force(&Parts::of(system), q0, q1, h);
+        }
+        force
+    }
+
+    /// f_d with its derivatives by q0 and q1, of whichever the system has.
+    fn discrete_force_derivatives<L: ActingForce<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> DiscreteForceDerivatives<L::Scalar, N> {
+        let mut force = DiscreteForceDerivatives::zero();
+        if L::HAS_RAYLEIGH {
+            force = force + Self::rayleigh_force_derivatives(&Parts::of(system), q0, q1, h);
+        }
+        if L::HAS_FORCE {
+            force = force + Self::general_force_derivatives(&Parts::of(system), q0, q1, h);
+        }
+        force
     }
 
     /// The part of the step's equation from L: −D1 L_d and its derivative by v̄.

@@ -9,8 +9,7 @@ use crate::system::{ActingForce, Rayleigh};
 
 /// A rule whose discrete objects need L and R at once.
 ///
-/// The functions are those of [`Discrete`](crate::Discrete), of which `#[rayleigh_system]` writes one call
-/// each.
+/// The functions are those of [`Discrete`](crate::Discrete).
 pub trait JointRule: Copy {
     /// L_d(q0, q1, h).
     fn discrete_lagrangian<L: Rayleigh<N>, const N: usize>(

@@ -2,13 +2,10 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::{DisplacementRule, SelfAdjoint};
-use crate::numbers::{CovectorDerivatives, Derivatives, Gradient};
-use crate::step::{
-    Discrete, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteParameters, DiscreteRayleigh,
-    Momenta, MomentaBy, SolvedForVelocity, StepKernel, VelocityHistory,
-};
-use crate::system::{ActingForce, Driven, Force, Lagrangian, Parameters, Rayleigh};
+use super::parts::Parts;
+use super::{DisplacementRule, Fused, Node, SelfAdjoint};
+use crate::step::{Momenta, SolvedForVelocity, StepKernel, VelocityHistory};
+use crate::system::ActingForce;
 
 /// The rule of one's own `Q`, for every system: nodes and weights on the straight line from q0 to q1.
 ///
@@ -53,63 +50,19 @@ pub struct Quadrature<Q>(pub Q);
 impl<Q: DisplacementRule> SolvedForVelocity for Quadrature<Q> {}
 impl<Q: SelfAdjoint> SelfAdjoint for Quadrature<Q> {}
 
-impl<L, Q, const N: usize> Discrete<Quadrature<Q>, N> for L
+/// The rule itself, on every system that it steps.
+impl<Q: DisplacementRule> DisplacementRule for Quadrature<Q> {
+    const NODES: &'static [Node] = Q::NODES;
+}
+
+/// One term for each of L, R and f that the system has.
+impl<L, Q, const N: usize> Fused<Quadrature<Q>, N> for L
 where
     L: ActingForce<N>,
     Q: DisplacementRule,
 {
     type Matrix = SMatrix<L::Scalar, N, N>;
     type Memory = VelocityHistory<L::Scalar, N>;
-
-    fn discrete_lagrangian(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> L::Scalar {
-        Q::discrete_lagrangian(self, q0, q1, h)
-    }
-
-    fn discrete_lagrangian_derivatives(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> Derivatives<L::Scalar, N> {
-        Q::discrete_lagrangian_derivatives(self, q0, q1, h)
-    }
-
-    fn discrete_force(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> DiscreteForce<L::Scalar, N> {
-        let mut force = DiscreteForce::zero();
-        if L::HAS_RAYLEIGH {
-            force = force + Q::rayleigh_force(&Parts::of(self), q0, q1, h);
-        }
-        if L::HAS_FORCE {
-            force = force + Q::general_force(&Parts::of(self), q0, q1, h);
-        }
-        force
-    }
-
-    fn discrete_force_derivatives(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> DiscreteForceDerivatives<L::Scalar, N> {
-        let mut force = DiscreteForceDerivatives::zero();
-        if L::HAS_RAYLEIGH {
-            force = force + Q::rayleigh_force_derivatives(&Parts::of(self), q0, q1, h);
-        }
-        if L::HAS_FORCE {
-            force = force + Q::general_force_derivatives(&Parts::of(self), q0, q1, h);
-        }
-        force
-    }
 
     #[inline]
     fn step_kernel(
@@ -145,6 +98,7 @@ where
         momenta
     }
 
+    #[cold]
     fn cancelling_terms(
         &self,
         q0: &SVector<L::Scalar, N>,
@@ -152,153 +106,5 @@ where
         h: L::Scalar,
     ) -> SVector<L::Scalar, N> {
         Q::cancelling_terms(self, q0, v, h)
-    }
-
-    fn segment_energy(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> L::Scalar {
-        Q::segment_energy(self, q0, q1, h)
-    }
-
-    fn at_nodes(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-        visit: &mut dyn FnMut(&Self, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>),
-    ) {
-        Q::at_nodes(self, q0, v, h, visit);
-    }
-}
-
-impl<L, Q, const N: usize> DiscreteRayleigh<Quadrature<Q>, N> for L
-where
-    L: ActingForce<N> + Rayleigh<N>,
-    Q: DisplacementRule,
-{
-    fn discrete_rayleigh(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> L::Scalar {
-        Q::discrete_rayleigh(self, q0, q1, h)
-    }
-
-    fn discrete_rayleigh_derivatives(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> Derivatives<L::Scalar, N> {
-        Q::discrete_rayleigh_derivatives(self, q0, q1, h)
-    }
-}
-
-impl<L, Q, const N: usize, const M: usize> DiscreteDriven<Quadrature<Q>, N, M> for L
-where
-    L: ActingForce<N> + Driven<N, M>,
-    Q: DisplacementRule,
-{
-    fn momenta_by_input(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> MomentaBy<L::Scalar, N, M> {
-        Q::force_by_input(self, q0, v, h)
-    }
-}
-
-impl<L, Q, const N: usize, const P: usize> DiscreteParameters<Quadrature<Q>, N, P> for L
-where
-    L: ActingForce<N> + Parameters<N, P>,
-    Q: DisplacementRule,
-{
-    fn momenta_by_parameters(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> MomentaBy<L::Scalar, N, P> {
-        let mut by = Q::lagrangian_by_parameters(self, q0, v, h);
-        if L::HAS_RAYLEIGH {
-            by = by + Q::rayleigh_by_parameters(self, q0, v, h);
-        }
-        if L::HAS_FORCE {
-            by = by + Q::force_by_parameters(self, q0, v, h);
-        }
-        by
-    }
-}
-
-/// A system by the parts of its force, whichever it has, `elapsed` from now.
-struct Parts<'a, L: Lagrangian<N>, const N: usize> {
-    system: &'a L,
-    elapsed: L::Scalar,
-}
-
-impl<'a, L: Lagrangian<N>, const N: usize> Parts<'a, L, N> {
-    fn of(system: &'a L) -> Self {
-        Self { system, elapsed: nalgebra::zero() }
-    }
-}
-
-impl<L: ActingForce<N>, const N: usize> Lagrangian<N> for Parts<'_, L, N> {
-    type Scalar = L::Scalar;
-
-    fn lagrangian(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> L::Scalar {
-        self.system.later(self.elapsed, |system| system.lagrangian(q, v))
-    }
-
-    fn lagrangian_derivatives(
-        &self,
-        q: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-    ) -> Derivatives<L::Scalar, N> {
-        self.system.later(self.elapsed, |system| system.lagrangian_derivatives(q, v))
-    }
-
-    fn later<T>(&self, elapsed: L::Scalar, evaluate: impl FnOnce(&Self) -> T) -> T {
-        evaluate(&Self { system: self.system, elapsed: self.elapsed + elapsed })
-    }
-}
-
-impl<L: ActingForce<N>, const N: usize> Rayleigh<N> for Parts<'_, L, N> {
-    fn rayleigh(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> L::Scalar {
-        self.rayleigh_gradient(q, v).value
-    }
-
-    fn rayleigh_gradient(
-        &self,
-        q: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-    ) -> Gradient<L::Scalar, N> {
-        self.system.later(self.elapsed, |system| system.dissipation(q, v))
-    }
-
-    fn rayleigh_derivatives(
-        &self,
-        q: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-    ) -> Derivatives<L::Scalar, N> {
-        self.system.later(self.elapsed, |system| system.dissipation_derivatives(q, v))
-    }
-}
-
-impl<L: ActingForce<N>, const N: usize> Force<N> for Parts<'_, L, N> {
-    fn force(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
-        self.system.later(self.elapsed, |system| system.general_force(q, v))
-    }
-
-    fn force_derivatives(
-        &self,
-        q: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-    ) -> CovectorDerivatives<L::Scalar, N> {
-        self.system.later(self.elapsed, |system| system.general_force_derivatives(q, v))
     }
 }

@@ -103,7 +103,7 @@ pub trait BoundedFlow<M, const N: usize>: Flow<M, N> {
 /// does no harm.
 pub trait Memory<L: ?Sized, M, const N: usize>: Default
 where
-    L: Flow<M, N>,
+    L: Lagrangian<N>,
 {
     /// The step of [`Flow::step`] from `state`.
     ///
@@ -123,7 +123,10 @@ where
     /// # Errors
     /// [`GeneratedDiffers`].
     #[cold]
-    fn verify_momenta(system: &L, state: &State<L::Scalar, N>, h: L::Scalar) -> Result<(), GeneratedDiffers> {
+    fn verify_momenta(system: &L, state: &State<L::Scalar, N>, h: L::Scalar) -> Result<(), GeneratedDiffers>
+    where
+        L: Flow<M, N>,
+    {
         system.verify_momenta(state, h)
     }
 

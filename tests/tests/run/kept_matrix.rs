@@ -3,9 +3,10 @@
 
 use std::cell::Cell;
 
+use dalembert::rules::Fused;
 use dalembert::run::{KeptMatrix, VelocityHistory};
 use dalembert::step::{Banded, Momenta, StepKernel};
-use dalembert::system::Derivatives;
+use dalembert::system::{ActingForce, Derivatives};
 use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, State, rayleigh_system};
 use nalgebra::{SMatrix, SVector};
 
@@ -66,22 +67,11 @@ macro_rules! counted {
             }
         }
 
-        impl Discrete<Midpoint, $n> for $name {
+        impl ActingForce<$n> for $name {}
+
+        impl Fused<Midpoint, $n> for $name {
             type Matrix = $matrix;
             type Memory = $memory;
-
-            fn discrete_lagrangian(&self, q0: &SVector<f64, $n>, q1: &SVector<f64, $n>, h: f64) -> f64 {
-                Discrete::<Midpoint, $n>::discrete_lagrangian(&$system, q0, q1, h)
-            }
-
-            fn discrete_lagrangian_derivatives(
-                &self,
-                q0: &SVector<f64, $n>,
-                q1: &SVector<f64, $n>,
-                h: f64,
-            ) -> Derivatives<f64, $n> {
-                Discrete::<Midpoint, $n>::discrete_lagrangian_derivatives(&$system, q0, q1, h)
-            }
 
             fn step_kernel(
                 &self,
@@ -96,10 +86,6 @@ macro_rules! counted {
             fn momenta(&self, q0: &SVector<f64, $n>, v: &SVector<f64, $n>, h: f64) -> Momenta<f64, $n> {
                 self.momenta.set(self.momenta.get() + 1);
                 Discrete::<Midpoint, $n>::momenta(&$system, q0, v, h)
-            }
-
-            fn segment_energy(&self, q0: &SVector<f64, $n>, q1: &SVector<f64, $n>, h: f64) -> f64 {
-                Discrete::<Midpoint, $n>::segment_energy(&$system, q0, q1, h)
             }
         }
 

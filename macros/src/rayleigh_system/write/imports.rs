@@ -33,7 +33,6 @@ fn of_traits(system: &System<'_>) -> Vec<&'static str> {
     if rules.ask_for_variations() || delegates(system) {
         names.extend(["Direction", "Variations"]);
     }
-    let is_forced = system.rayleigh.is_some() || system.has_force;
     if system.rayleigh.is_some() {
         names.push("Rayleigh");
     }
@@ -47,36 +46,18 @@ fn of_traits(system: &System<'_>) -> Vec<&'static str> {
         names.push("ForcedLagrangian");
     }
     if !rules.of_displacement.is_empty() {
-        names.extend(["Discrete", "Momenta", "StepKernel"]);
-        if rules.of_displacement.iter().any(|rule| rule.joint().is_none()) {
-            names.push("DisplacementRule");
-        }
+        names.extend(["Fused", "Momenta", "StepKernel"]);
         if !rules.joint.is_empty() {
             names.push("JointRule");
-        }
-        let n = system.degrees.literal();
-        if rules.joint.iter().any(|(_, rule)| rule.has_discrete_rayleigh(n)) {
-            names.push("JointRayleighRule");
-        }
-        if system.rayleigh.is_some() {
-            names.push("DiscreteRayleigh");
-        }
-        if is_forced {
-            names.extend(["DiscreteForce", "DiscreteForceDerivatives"]);
         }
     }
     // What the runtime gives of every forced Lagrangian, Gauss rules need no name for.
     let of_displacement = |name| (!rules.of_displacement.is_empty()).then_some(name);
     if system.input.is_some() {
         names.push("Driven");
-        names.extend(of_displacement("DiscreteDriven"));
     }
     if !system.parameters.is_empty() {
         names.extend(["GradientBy", "Parameters"]);
-        names.extend(of_displacement("DiscreteParameters"));
-    }
-    if system.input.is_some() || !system.parameters.is_empty() {
-        names.extend(of_displacement("MomentaBy"));
     }
     if system.second {
         names.extend(["Hessian", "SecondOrder"]);

@@ -8,53 +8,22 @@ use super::view::subject;
 
 /// `impl Driven<2, 1> for DrivenArm<'_>`, with the body of either engine.
 pub fn driven(system: &System<'_>, by_input: TokenStream) -> Option<TokenStream> {
-    let scalar = &system.scalar;
     let (n, m) = (system.degrees.times(1), system.input.as_ref()?.times(1));
     let subject = subject(system, Home::View);
-    let rules = system.rules.of_displacement.iter().map(|rule| rule.ident());
     Some(quote! {
         #[automatically_derived]
         impl Driven<#n, #m> for #subject {
             #by_input
         }
-
-        #(
-            #[automatically_derived]
-            impl DiscreteDriven<#rules, #n, #m> for #subject {
-                /// ∂p0/∂u = −∂f_d⁻/∂u and ∂p1/∂u = ∂f_d⁺/∂u.
-                fn momenta_by_input(&self, q0: &Vector, v: &Vector, h: #scalar) -> MomentaBy<#scalar, #n, #m> {
-                    #rules::force_by_input(self, q0, v, h)
-                }
-            }
-        )*
     })
 }
 
 /// `impl Parameters<2, 3> for Ring`, with the functions given.
 pub fn by_parameters(system: &System<'_>, functions: TokenStream) -> TokenStream {
-    let scalar = &system.scalar;
     let (n, p) = (system.degrees.times(1), system.parameter_count());
     let subject = subject(system, system.home());
     let names =
         system.parameters.iter().map(|parameter| parameter.to_token_stream().to_string().replace(' ', ""));
-    let terms: Vec<_> = system.parts().map(|part| format_ident!("{}_by_parameters", part.name())).collect();
-    let rules = system.rules.of_displacement.iter().map(|rule| rule.ident());
-    let discrete = rules.map(|rule| {
-        quote! {
-            #[automatically_derived]
-            impl DiscreteParameters<#rule, #n, #p> for #subject {
-                /// ∂p0/∂θ and ∂p1/∂θ at fixed configurations.
-                fn momenta_by_parameters(
-                    &self,
-                    q0: &Vector,
-                    v: &Vector,
-                    h: #scalar,
-                ) -> MomentaBy<#scalar, #n, #p> {
-                    #(#rule::#terms(self, q0, v, h))+*
-                }
-            }
-        }
-    });
     quote! {
         #[automatically_derived]
         impl Parameters<#n, #p> for #subject {
@@ -62,8 +31,6 @@ pub fn by_parameters(system: &System<'_>, functions: TokenStream) -> TokenStream
 
             #functions
         }
-
-        #(#discrete)*
     }
 }
 

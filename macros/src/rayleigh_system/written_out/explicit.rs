@@ -27,7 +27,7 @@ impl Code<'_> {
         let prelude = let_half(&line);
         let step_matrix = quote! {
             #[inline]
-            fn step_matrix(&self, #h: #scalar) -> <Self as Discrete<Trapezoidal, #n>>::Matrix {
+            fn step_matrix(&self, #h: #scalar) -> <Self as Fused<Trapezoidal, #n>>::Matrix {
                 #prelude
                 #statements
                 #matrix

@@ -22,8 +22,7 @@ impl Bead {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        ActingForce, Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives,
-        DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Mask, MemberVector,
+        ActingForce, Derivatives, Fused, Gradient, Lagrangian, Mask, MemberVector,
         Members, Momenta, Rayleigh, StepKernel, Trapezoidal,
     };
     use ::dalembert::generated::Elementary as _;
@@ -173,42 +172,11 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl Discrete<Trapezoidal, 1> for Bead {
+    impl Fused<Trapezoidal, 1> for Bead {
         type Matrix = SMatrix<f64, 1, 1>;
         type Memory = ::dalembert::generated::ExplicitMemory<f64, Self::Matrix, 1>;
         const LINEAR: bool = true;
         const WRITTEN_OUT: bool = true;
-        /// L_d = (h/2) [L(q0, v̄) + L(q1, v̄)], with v̄ = (q1 − q0)/h.
-        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Trapezoidal::discrete_lagrangian(self, q0, q1, h)
-        }
-        /// L_d with D1, D2, D11, D12, D22.
-        fn discrete_lagrangian_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 1> {
-            Trapezoidal::discrete_lagrangian_derivatives(self, q0, q1, h)
-        }
-        /// f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.
-        fn discrete_force(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> DiscreteForce<f64, 1> {
-            Trapezoidal::rayleigh_force(self, q0, q1, h)
-        }
-        /// f_d with its derivatives by q0 and q1.
-        fn discrete_force_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> DiscreteForceDerivatives<f64, 1> {
-            Trapezoidal::rayleigh_force_derivatives(self, q0, q1, h)
-        }
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
         #[inline]
         fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
@@ -248,19 +216,6 @@ const _: () = {
                 p0: SVector::from([t4 + t8 - half * (t7 - t2 * q0[0].sin())]),
                 p1: SVector::from([t4 + half * (t9 - t2 * q1[0].sin()) - t8]),
             }
-        }
-        /// E_L on the segment.
-        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Trapezoidal::segment_energy(self, q0, q1, h)
-        }
-        fn at_nodes(
-            &self,
-            q0: &Vector,
-            v: &Vector,
-            h: f64,
-            visit: &mut dyn FnMut(&Self, &Vector, &Vector),
-        ) {
-            Trapezoidal::at_nodes(self, q0, v, h, visit);
         }
     }
     #[automatically_derived]
@@ -333,22 +288,6 @@ const _: () = {
             );
             let t5 = Members::select(t4, -t3 * push, Members::<f64, W>::splat(0.0));
             [t5 - t2 * q[0].sin()]
-        }
-    }
-    #[automatically_derived]
-    impl DiscreteRayleigh<Trapezoidal, 1> for Bead {
-        /// R_d = (h²/4) [R(q0, v̄) + R(q1, v̄)], with v̄ = (q1 − q0)/h.
-        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Trapezoidal::discrete_rayleigh(self, q0, q1, h)
-        }
-        /// R_d with D1, D2, D11, D12, D22.
-        fn discrete_rayleigh_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 1> {
-            Trapezoidal::discrete_rayleigh_derivatives(self, q0, q1, h)
         }
     }
     #[automatically_derived]

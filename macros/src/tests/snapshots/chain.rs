@@ -23,8 +23,8 @@ impl Chain {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        ActingForce, Derivatives, Discrete, DisplacementRule, Gradient, Lagrangian,
-        Midpoint, Momenta, StepKernel,
+        ActingForce, Derivatives, Fused, Gradient, Lagrangian, Midpoint, Momenta,
+        StepKernel,
     };
     type Vector = SVector<f64, 4>;
     impl ::dalembert::generated::PlainFields for Chain {
@@ -167,23 +167,10 @@ const _: () = {
     #[automatically_derived]
     impl ActingForce<4> for Chain {}
     #[automatically_derived]
-    impl Discrete<Midpoint, 4> for Chain {
+    impl Fused<Midpoint, 4> for Chain {
         type Matrix = ::dalembert::generated::Banded<f64, 4, 3>;
         type Memory = ::dalembert::generated::KeptMatrix<f64, Self::Matrix, 4>;
         const WRITTEN_OUT: bool = true;
-        /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
-        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::discrete_lagrangian(self, q0, q1, h)
-        }
-        /// L_d with D1, D2, D11, D12, D22.
-        fn discrete_lagrangian_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 4> {
-            Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
-        }
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
         #[inline]
         fn step_kernel(
@@ -271,19 +258,6 @@ const _: () = {
                 p0: SVector::from([v[0] + t2, v[1] - t3, v[2] - t4, v[3] - t5]),
                 p1: SVector::from([v[0] - t2, v[1] + t3, v[2] + t4, v[3] + t5]),
             }
-        }
-        /// E_L on the segment.
-        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::segment_energy(self, q0, q1, h)
-        }
-        fn at_nodes(
-            &self,
-            q0: &Vector,
-            v: &Vector,
-            h: f64,
-            visit: &mut dyn FnMut(&Self, &Vector, &Vector),
-        ) {
-            Midpoint::at_nodes(self, q0, v, h, visit);
         }
     }
     #[automatically_derived]

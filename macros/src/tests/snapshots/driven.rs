@@ -45,10 +45,9 @@ impl Arm {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        ActingForce, CovectorDerivatives, Derivatives, Direction, Discrete,
-        DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
-        DisplacementRule, Driven, Force, Gradient, Lagrangian, Midpoint, Momenta,
-        MomentaBy, Rayleigh, StepKernel, Variations,
+        ActingForce, CovectorDerivatives, Derivatives, Direction, DisplacementRule,
+        Driven, Force, Fused, Gradient, Lagrangian, Midpoint, Momenta, Rayleigh,
+        StepKernel, Variations,
     };
     type Vector = SVector<f64, 1>;
     impl ::dalembert::generated::PlainFields for Arm {
@@ -333,55 +332,10 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl DiscreteDriven<Midpoint, 1, 1> for DrivenArm<'_> {
-        /// ∂p0/∂u = −∂f_d⁻/∂u and ∂p1/∂u = ∂f_d⁺/∂u.
-        fn momenta_by_input(
-            &self,
-            q0: &Vector,
-            v: &Vector,
-            h: f64,
-        ) -> MomentaBy<f64, 1, 1> {
-            Midpoint::force_by_input(self, q0, v, h)
-        }
-    }
-    #[automatically_derived]
-    impl Discrete<Midpoint, 1> for DrivenArm<'_> {
+    impl Fused<Midpoint, 1> for DrivenArm<'_> {
         type Matrix = SMatrix<f64, 1, 1>;
         type Memory = ::dalembert::generated::VelocityHistory<f64, 1>;
         const WRITTEN_OUT: bool = true;
-        /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
-        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::discrete_lagrangian(self, q0, q1, h)
-        }
-        /// L_d with D1, D2, D11, D12, D22.
-        fn discrete_lagrangian_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 1> {
-            Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
-        }
-        /// f_d⁻ = D1 R_d + (h/2) f(q̄, v̄), f_d⁺ = −D2 R_d + (h/2) f(q̄, v̄).
-        fn discrete_force(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> DiscreteForce<f64, 1> {
-            Midpoint::rayleigh_force(self, q0, q1, h)
-                + Midpoint::general_force(self, q0, q1, h)
-        }
-        /// f_d with its derivatives by q0 and q1.
-        fn discrete_force_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> DiscreteForceDerivatives<f64, 1> {
-            Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
-                + Midpoint::general_force_derivatives(self, q0, q1, h)
-        }
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
         #[inline]
         fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
@@ -423,35 +377,6 @@ const _: () = {
         #[cold]
         fn cancelling_terms(&self, q0: &Vector, v: &Vector, h: f64) -> Vector {
             Midpoint::cancelling_terms(self, q0, v, h)
-        }
-        /// E_L on the segment.
-        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::segment_energy(self, q0, q1, h)
-        }
-        fn at_nodes(
-            &self,
-            q0: &Vector,
-            v: &Vector,
-            h: f64,
-            visit: &mut dyn FnMut(&Self, &Vector, &Vector),
-        ) {
-            Midpoint::at_nodes(self, q0, v, h, visit);
-        }
-    }
-    #[automatically_derived]
-    impl DiscreteRayleigh<Midpoint, 1> for DrivenArm<'_> {
-        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
-        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::discrete_rayleigh(self, q0, q1, h)
-        }
-        /// R_d with D1, D2, D11, D12, D22.
-        fn discrete_rayleigh_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 1> {
-            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
         }
     }
     #[automatically_derived]

@@ -18,8 +18,7 @@ impl Ring {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        ActingForce, Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives,
-        DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Momenta, Rayleigh,
+        ActingForce, Derivatives, Fused, Gradient, Lagrangian, Momenta, Rayleigh,
         StepKernel, Trapezoidal,
     };
     type Vector = SVector<f64, 2>;
@@ -157,42 +156,11 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl Discrete<Trapezoidal, 2> for Ring {
+    impl Fused<Trapezoidal, 2> for Ring {
         type Matrix = ::dalembert::generated::Banded<f64, 2, 1>;
         type Memory = ::dalembert::generated::ExplicitMemory<f64, Self::Matrix, 2>;
         const LINEAR: bool = true;
         const WRITTEN_OUT: bool = true;
-        /// L_d = (h/2) [L(q0, v̄) + L(q1, v̄)], with v̄ = (q1 − q0)/h.
-        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Trapezoidal::discrete_lagrangian(self, q0, q1, h)
-        }
-        /// L_d with D1, D2, D11, D12, D22.
-        fn discrete_lagrangian_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 2> {
-            Trapezoidal::discrete_lagrangian_derivatives(self, q0, q1, h)
-        }
-        /// f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.
-        fn discrete_force(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> DiscreteForce<f64, 2> {
-            Trapezoidal::rayleigh_force(self, q0, q1, h)
-        }
-        /// f_d with its derivatives by q0 and q1.
-        fn discrete_force_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> DiscreteForceDerivatives<f64, 2> {
-            Trapezoidal::rayleigh_force_derivatives(self, q0, q1, h)
-        }
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
         #[inline]
         fn step_kernel(
@@ -242,19 +210,6 @@ const _: () = {
                 ]),
             }
         }
-        /// E_L on the segment.
-        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Trapezoidal::segment_energy(self, q0, q1, h)
-        }
-        fn at_nodes(
-            &self,
-            q0: &Vector,
-            v: &Vector,
-            h: f64,
-            visit: &mut dyn FnMut(&Self, &Vector, &Vector),
-        ) {
-            Trapezoidal::at_nodes(self, q0, v, h, visit);
-        }
     }
     #[automatically_derived]
     impl ::dalembert::generated::Explicit<2> for Ring {
@@ -283,22 +238,6 @@ const _: () = {
             let t1 = s - 1.0;
             let t2 = t1 * (t1 + 2.0 * s);
             SVector::from([-2.0 * q[0] * t2, -2.0 * q[1] * t2])
-        }
-    }
-    #[automatically_derived]
-    impl DiscreteRayleigh<Trapezoidal, 2> for Ring {
-        /// R_d = (h²/4) [R(q0, v̄) + R(q1, v̄)], with v̄ = (q1 − q0)/h.
-        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Trapezoidal::discrete_rayleigh(self, q0, q1, h)
-        }
-        /// R_d with D1, D2, D11, D12, D22.
-        fn discrete_rayleigh_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 2> {
-            Trapezoidal::discrete_rayleigh_derivatives(self, q0, q1, h)
         }
     }
     #[automatically_derived]

@@ -25,8 +25,7 @@ struct Linear {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        ActingForce, Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives,
-        DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
+        ActingForce, Derivatives, Fused, Gradient, Lagrangian, Midpoint, Momenta,
         Rayleigh, StepKernel,
     };
     type Vector = SVector<f64, 2>;
@@ -161,42 +160,11 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl Discrete<Midpoint, 2> for Linear {
+    impl Fused<Midpoint, 2> for Linear {
         type Matrix = SMatrix<f64, 2, 2>;
         type Memory = ::dalembert::generated::KeptMatrix<f64, Self::Matrix, 2>;
         const LINEAR: bool = true;
         const WRITTEN_OUT: bool = true;
-        /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
-        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::discrete_lagrangian(self, q0, q1, h)
-        }
-        /// L_d with D1, D2, D11, D12, D22.
-        fn discrete_lagrangian_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 2> {
-            Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
-        }
-        /// f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.
-        fn discrete_force(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> DiscreteForce<f64, 2> {
-            Midpoint::rayleigh_force(self, q0, q1, h)
-        }
-        /// f_d with its derivatives by q0 and q1.
-        fn discrete_force_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> DiscreteForceDerivatives<f64, 2> {
-            Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
-        }
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
         #[inline]
         fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 2> {
@@ -234,35 +202,6 @@ const _: () = {
                 p0: SVector::from([v[0] - t2, v[1] + t3]),
                 p1: SVector::from([v[0] + t2, v[1] - t3]),
             }
-        }
-        /// E_L on the segment.
-        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::segment_energy(self, q0, q1, h)
-        }
-        fn at_nodes(
-            &self,
-            q0: &Vector,
-            v: &Vector,
-            h: f64,
-            visit: &mut dyn FnMut(&Self, &Vector, &Vector),
-        ) {
-            Midpoint::at_nodes(self, q0, v, h, visit);
-        }
-    }
-    #[automatically_derived]
-    impl DiscreteRayleigh<Midpoint, 2> for Linear {
-        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
-        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::discrete_rayleigh(self, q0, q1, h)
-        }
-        /// R_d with D1, D2, D11, D12, D22.
-        fn discrete_rayleigh_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 2> {
-            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
         }
     }
     #[automatically_derived]

@@ -24,8 +24,7 @@ pub struct Oscillator {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        ActingForce, Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives,
-        DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
+        ActingForce, Derivatives, Fused, Gradient, Lagrangian, Midpoint, Momenta,
         Rayleigh, StepKernel, Trapezoidal,
     };
     type Vector = SVector<f64, 1>;
@@ -159,42 +158,11 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl Discrete<Midpoint, 1> for Oscillator {
+    impl Fused<Midpoint, 1> for Oscillator {
         type Matrix = SMatrix<f64, 1, 1>;
         type Memory = ::dalembert::generated::KeptMatrix<f64, Self::Matrix, 1>;
         const LINEAR: bool = true;
         const WRITTEN_OUT: bool = true;
-        /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
-        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::discrete_lagrangian(self, q0, q1, h)
-        }
-        /// L_d with D1, D2, D11, D12, D22.
-        fn discrete_lagrangian_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 1> {
-            Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
-        }
-        /// f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.
-        fn discrete_force(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> DiscreteForce<f64, 1> {
-            Midpoint::rayleigh_force(self, q0, q1, h)
-        }
-        /// f_d with its derivatives by q0 and q1.
-        fn discrete_force_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> DiscreteForceDerivatives<f64, 1> {
-            Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
-        }
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
         #[inline]
         fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
@@ -220,73 +188,13 @@ const _: () = {
                 p1: SVector::from([t1 - t2]),
             }
         }
-        /// E_L on the segment.
-        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::segment_energy(self, q0, q1, h)
-        }
-        fn at_nodes(
-            &self,
-            q0: &Vector,
-            v: &Vector,
-            h: f64,
-            visit: &mut dyn FnMut(&Self, &Vector, &Vector),
-        ) {
-            Midpoint::at_nodes(self, q0, v, h, visit);
-        }
     }
     #[automatically_derived]
-    impl DiscreteRayleigh<Midpoint, 1> for Oscillator {
-        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
-        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::discrete_rayleigh(self, q0, q1, h)
-        }
-        /// R_d with D1, D2, D11, D12, D22.
-        fn discrete_rayleigh_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 1> {
-            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
-        }
-    }
-    #[automatically_derived]
-    impl Discrete<Trapezoidal, 1> for Oscillator {
+    impl Fused<Trapezoidal, 1> for Oscillator {
         type Matrix = SMatrix<f64, 1, 1>;
         type Memory = ::dalembert::generated::ExplicitMemory<f64, Self::Matrix, 1>;
         const LINEAR: bool = true;
         const WRITTEN_OUT: bool = true;
-        /// L_d = (h/2) [L(q0, v̄) + L(q1, v̄)], with v̄ = (q1 − q0)/h.
-        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Trapezoidal::discrete_lagrangian(self, q0, q1, h)
-        }
-        /// L_d with D1, D2, D11, D12, D22.
-        fn discrete_lagrangian_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 1> {
-            Trapezoidal::discrete_lagrangian_derivatives(self, q0, q1, h)
-        }
-        /// f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.
-        fn discrete_force(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> DiscreteForce<f64, 1> {
-            Trapezoidal::rayleigh_force(self, q0, q1, h)
-        }
-        /// f_d with its derivatives by q0 and q1.
-        fn discrete_force_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> DiscreteForceDerivatives<f64, 1> {
-            Trapezoidal::rayleigh_force_derivatives(self, q0, q1, h)
-        }
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
         #[inline]
         fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
@@ -310,19 +218,6 @@ const _: () = {
                 p1: SVector::from([t1 - t3 - t2 * q1[0]]),
             }
         }
-        /// E_L on the segment.
-        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Trapezoidal::segment_energy(self, q0, q1, h)
-        }
-        fn at_nodes(
-            &self,
-            q0: &Vector,
-            v: &Vector,
-            h: f64,
-            visit: &mut dyn FnMut(&Self, &Vector, &Vector),
-        ) {
-            Trapezoidal::at_nodes(self, q0, v, h, visit);
-        }
     }
     #[automatically_derived]
     impl ::dalembert::generated::Explicit<1> for Oscillator {
@@ -344,22 +239,6 @@ const _: () = {
         #[inline]
         fn configuration_force(&self, q: &Vector) -> Vector {
             SVector::from([-self.k * q[0]])
-        }
-    }
-    #[automatically_derived]
-    impl DiscreteRayleigh<Trapezoidal, 1> for Oscillator {
-        /// R_d = (h²/4) [R(q0, v̄) + R(q1, v̄)], with v̄ = (q1 − q0)/h.
-        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Trapezoidal::discrete_rayleigh(self, q0, q1, h)
-        }
-        /// R_d with D1, D2, D11, D12, D22.
-        fn discrete_rayleigh_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 1> {
-            Trapezoidal::discrete_rayleigh_derivatives(self, q0, q1, h)
         }
     }
     #[automatically_derived]

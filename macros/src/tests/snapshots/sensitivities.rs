@@ -42,11 +42,10 @@ impl Joint {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        ActingForce, CovectorDerivatives, Derivatives, Direction, Discrete,
-        DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteParameters,
-        DiscreteRayleigh, DiscreteSecondOrder, DisplacementRule, Driven, Force, Gradient,
-        GradientBy, Hessian, Lagrangian, Midpoint, Momenta, MomentaBy, Parameters,
-        Rayleigh, SecondOrder, StartByInput, StepKernel, Variations,
+        ActingForce, CovectorDerivatives, Derivatives, Direction, DiscreteSecondOrder,
+        DisplacementRule, Driven, Force, Fused, Gradient, GradientBy, Hessian,
+        Lagrangian, Midpoint, Momenta, Parameters, Rayleigh, SecondOrder, StartByInput,
+        StepKernel, Variations,
     };
     type Vector = SVector<f64, 1>;
     impl ::dalembert::generated::PlainFields for Joint {
@@ -296,18 +295,6 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl DiscreteDriven<Midpoint, 1, 1> for DrivenJoint<'_> {
-        /// ∂p0/∂u = −∂f_d⁻/∂u and ∂p1/∂u = ∂f_d⁺/∂u.
-        fn momenta_by_input(
-            &self,
-            q0: &Vector,
-            v: &Vector,
-            h: f64,
-        ) -> MomentaBy<f64, 1, 1> {
-            Midpoint::force_by_input(self, q0, v, h)
-        }
-    }
-    #[automatically_derived]
     impl Parameters<1, 2> for DrivenJoint<'_> {
         const PARAMETERS: [&'static str; 2] = ["l", "c[0]"];
         #[inline]
@@ -335,20 +322,6 @@ const _: () = {
         #[inline]
         fn force_by_parameters(&self, _q: &Vector, _v: &Vector) -> SMatrix<f64, 1, 2> {
             SMatrix::zeros()
-        }
-    }
-    #[automatically_derived]
-    impl DiscreteParameters<Midpoint, 1, 2> for DrivenJoint<'_> {
-        /// ∂p0/∂θ and ∂p1/∂θ at fixed configurations.
-        fn momenta_by_parameters(
-            &self,
-            q0: &Vector,
-            v: &Vector,
-            h: f64,
-        ) -> MomentaBy<f64, 1, 2> {
-            Midpoint::lagrangian_by_parameters(self, q0, v, h)
-                + Midpoint::rayleigh_by_parameters(self, q0, v, h)
-                + Midpoint::force_by_parameters(self, q0, v, h)
         }
     }
     #[automatically_derived]
@@ -426,43 +399,10 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl Discrete<Midpoint, 1> for DrivenJoint<'_> {
+    impl Fused<Midpoint, 1> for DrivenJoint<'_> {
         type Matrix = SMatrix<f64, 1, 1>;
         type Memory = ::dalembert::generated::VelocityHistory<f64, 1>;
         const WRITTEN_OUT: bool = true;
-        /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
-        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::discrete_lagrangian(self, q0, q1, h)
-        }
-        /// L_d with D1, D2, D11, D12, D22.
-        fn discrete_lagrangian_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 1> {
-            Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
-        }
-        /// f_d⁻ = D1 R_d + (h/2) f(q̄, v̄), f_d⁺ = −D2 R_d + (h/2) f(q̄, v̄).
-        fn discrete_force(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> DiscreteForce<f64, 1> {
-            Midpoint::rayleigh_force(self, q0, q1, h)
-                + Midpoint::general_force(self, q0, q1, h)
-        }
-        /// f_d with its derivatives by q0 and q1.
-        fn discrete_force_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> DiscreteForceDerivatives<f64, 1> {
-            Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
-                + Midpoint::general_force_derivatives(self, q0, q1, h)
-        }
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
         #[inline]
         fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
@@ -504,35 +444,6 @@ const _: () = {
                 p0: SVector::from([t1 - t2]),
                 p1: SVector::from([t1 + t2]),
             }
-        }
-        /// E_L on the segment.
-        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::segment_energy(self, q0, q1, h)
-        }
-        fn at_nodes(
-            &self,
-            q0: &Vector,
-            v: &Vector,
-            h: f64,
-            visit: &mut dyn FnMut(&Self, &Vector, &Vector),
-        ) {
-            Midpoint::at_nodes(self, q0, v, h, visit);
-        }
-    }
-    #[automatically_derived]
-    impl DiscreteRayleigh<Midpoint, 1> for DrivenJoint<'_> {
-        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
-        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::discrete_rayleigh(self, q0, q1, h)
-        }
-        /// R_d with D1, D2, D11, D12, D22.
-        fn discrete_rayleigh_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 1> {
-            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
         }
     }
     #[automatically_derived]

@@ -4,10 +4,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::rules::DisplacementRule;
+use dalembert::rules::{DisplacementRule, Fused};
 use dalembert::step::{Momenta, StepKernel};
-use dalembert::system::Derivatives;
-use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, State, Trajectory};
+use dalembert::system::{ActingForce, Derivatives};
+use dalembert::{Discretise, Lagrangian, Midpoint, State, Trajectory};
 
 /// A pendulum whose Lagrangian panics at a given call.
 struct Panicking {
@@ -36,22 +36,11 @@ impl Lagrangian<1> for Panicking {
     }
 }
 
-impl Discrete<Midpoint, 1> for Panicking {
+impl ActingForce<1> for Panicking {}
+
+impl Fused<Midpoint, 1> for Panicking {
     type Matrix = dalembert::nalgebra::SMatrix<f64, 1, 1>;
     type Memory = dalembert::run::VelocityHistory<f64, 1>;
-
-    fn discrete_lagrangian(&self, q0: &SVector<f64, 1>, q1: &SVector<f64, 1>, h: f64) -> f64 {
-        Midpoint::discrete_lagrangian(self, q0, q1, h)
-    }
-
-    fn discrete_lagrangian_derivatives(
-        &self,
-        q0: &SVector<f64, 1>,
-        q1: &SVector<f64, 1>,
-        h: f64,
-    ) -> Derivatives<f64, 1> {
-        Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
-    }
 
     fn step_kernel(&self, q0: &SVector<f64, 1>, v: &SVector<f64, 1>, h: f64) -> StepKernel<f64, 1> {
         Midpoint::lagrangian_kernel(self, q0, v, h)
@@ -59,10 +48,6 @@ impl Discrete<Midpoint, 1> for Panicking {
 
     fn momenta(&self, q0: &SVector<f64, 1>, v: &SVector<f64, 1>, h: f64) -> Momenta<f64, 1> {
         Midpoint::lagrangian_momenta(self, q0, v, h)
-    }
-
-    fn segment_energy(&self, q0: &SVector<f64, 1>, q1: &SVector<f64, 1>, h: f64) -> f64 {
-        Midpoint::segment_energy(self, q0, q1, h)
     }
 }
 

@@ -1,5 +1,4 @@
-//! A system discretised by a rule: `Discrete`, `DiscreteRayleigh`, and the methods that an error can be asked
-//! of.
+//! The step of a system by a rule: `Fused`, and the methods that an error can be asked of.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -7,8 +6,6 @@ use quote::{format_ident, quote};
 use super::super::emit::inlined;
 use super::super::model::System;
 use super::super::rules::Rule;
-use super::at_nodes;
-use super::joint;
 use super::view::subject;
 
 /// The step's equation as an engine makes it: bodies of the functions that a step calls, L, R and f
@@ -35,11 +32,13 @@ pub enum Memory {
     Velocities,
     Matrix,
     Explicit,
+    /// The type of that name in the runtime.
+    OfRule(&'static str),
 }
 
-/// `impl Discrete<Midpoint, 2> for Ring`: one term for each of L, R and f that the system has, unless an
-/// engine gives the kernel's bodies. `may_cancel`: whether terms of the equations of motion can.
-pub fn discrete(
+/// `impl Fused<Midpoint, 2> for Ring`: one term for each of L, R and f that the system has, unless an engine
+/// gives the kernel's bodies. `may_cancel`: whether terms of the equations of motion can.
+pub fn fused(
     system: &System<'_>,
     rule: Rule,
     (is_expanded, may_cancel): (bool, bool),
@@ -47,62 +46,12 @@ pub fn discrete(
 ) -> TokenStream {
     let cancelling_terms =
         (may_cancel && rule.asks_for_cancelling_terms()).then(|| cancelling_terms(system, rule));
-    if let Some(shared) = rule.joint() {
-        return joint::discrete(system, rule, shared, cancelling_terms);
-    }
     let scalar = &system.scalar;
     let n = system.degrees.times(1);
     let subject = subject(system, system.home());
-    let lagrangian = rule.entry().lagrangian;
-    let force = rule.force(system.rayleigh.is_some(), system.has_force);
-    let rule = rule.ident();
-    let terms = |of_rayleigh: &str, of_force: &str| {
-        let of_rayleigh = system.rayleigh.map(|_| format_ident!("{of_rayleigh}"));
-        let of_force = system.has_force.then(|| format_ident!("{of_force}"));
-        of_rayleigh.into_iter().chain(of_force)
-    };
-    let kernels = terms("rayleigh_kernel", "force_kernel");
-    let momenta = terms("rayleigh_momenta", "force_momenta");
-    let forces: Vec<_> = terms("rayleigh_force", "general_force").collect();
-    let force_derivatives = terms("rayleigh_force_derivatives", "general_force_derivatives");
-    // f_d⁻, f_d⁺: Midpoint::rayleigh_force(self, q0, q1, h)
-    let discrete_force = (!forces.is_empty()).then(|| {
-        quote! {
-            #[doc = #force]
-            fn discrete_force(&self, q0: &Vector, q1: &Vector, h: #scalar) -> DiscreteForce<#scalar, #n> {
-                #(#rule::#forces(self, q0, q1, h))+*
-            }
-
-            /// f_d with its derivatives by q0 and q1.
-            fn discrete_force_derivatives(
-                &self,
-                q0: &Vector,
-                q1: &Vector,
-                h: #scalar,
-            ) -> DiscreteForceDerivatives<#scalar, #n> {
-                #(#rule::#force_derivatives(self, q0, q1, h))+*
-            }
-        }
-    });
-    let Kernel {
-        step_kernel,
-        momenta,
-        diagonals,
-        is_linear,
-        memory,
-        explicit,
-        explicit_in_lanes,
-        in_lanes,
-    } = kernel.unwrap_or_else(|| Kernel {
-        step_kernel: quote!(#rule::lagrangian_kernel(self, q0, v, h) #(+ #rule::#kernels(self, q0, v, h))*),
-        momenta: quote!(#rule::lagrangian_momenta(self, q0, v, h) #(+ #rule::#momenta(self, q0, v, h))*),
-        diagonals: None,
-        is_linear: false,
-        memory: Memory::Velocities,
-        explicit: None,
-        explicit_in_lanes: None,
-        in_lanes: None,
-    });
+    let name = rule.ident();
+    let Kernel { step_kernel, momenta, diagonals, is_linear, memory, explicit, explicit_in_lanes, in_lanes } =
+        kernel.unwrap_or_else(|| of_terms(system, rule));
     let [inline_kernel, inline_momenta] = [&step_kernel, &momenta].map(inlined);
     let (matrix, kernel) = match diagonals {
         None => (quote!(SMatrix<#scalar, #n, #n>), quote!(StepKernel<#scalar, #n>)),
@@ -118,6 +67,10 @@ pub fn discrete(
         Memory::Velocities => quote!(::dalembert::generated::VelocityHistory<#scalar, #n>),
         Memory::Matrix => quote!(::dalembert::generated::KeptMatrix<#scalar, Self::Matrix, #n>),
         Memory::Explicit => quote!(::dalembert::generated::ExplicitMemory<#scalar, Self::Matrix, #n>),
+        Memory::OfRule(name) => {
+            let name = format_ident!("{name}");
+            quote!(::dalembert::generated::#name<#scalar, #n>)
+        }
     };
     let linear = is_linear.then(|| {
         quote!(
@@ -146,43 +99,23 @@ pub fn discrete(
     let in_lanes = in_lanes.map(|functions| {
         quote! {
             #[automatically_derived]
-            impl ::dalembert::generated::DiscreteInLanes<#rule, #n> for #subject {
+            impl ::dalembert::generated::DiscreteInLanes<#name, #n> for #subject {
                 #functions
             }
         }
     });
-    let nodes = at_nodes(system, &quote!(#rule));
-    let written_out = is_expanded.then(|| {
+    let written_out = (is_expanded && rule.joint().is_none()).then(|| {
         quote!(
             const WRITTEN_OUT: bool = true;
         )
     });
-    // p0 = −D1 L_d − f_d⁻: Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0,
-    // v, h)
     quote! {
         #[automatically_derived]
-        impl Discrete<#rule, #n> for #subject {
+        impl Fused<#name, #n> for #subject {
             type Matrix = #matrix;
             type Memory = #memory;
             #linear
             #written_out
-
-            #[doc = #lagrangian]
-            fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
-                #rule::discrete_lagrangian(self, q0, q1, h)
-            }
-
-            /// L_d with D1, D2, D11, D12, D22.
-            fn discrete_lagrangian_derivatives(
-                &self,
-                q0: &Vector,
-                q1: &Vector,
-                h: #scalar,
-            ) -> Derivatives<#scalar, #n> {
-                #rule::discrete_lagrangian_derivatives(self, q0, q1, h)
-            }
-
-            #discrete_force
 
             /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
             #inline_kernel
@@ -197,13 +130,6 @@ pub fn discrete(
             }
 
             #cancelling_terms
-
-            /// E_L on the segment.
-            fn segment_energy(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
-                #rule::segment_energy(self, q0, q1, h)
-            }
-
-            #nodes
         }
 
         #in_lanes
@@ -211,6 +137,40 @@ pub fn discrete(
         #explicit
 
         #explicit_in_lanes
+    }
+}
+
+/// Whether some function is a rule's own, as [`of_terms`] and [`cancelling_terms`] write it.
+pub fn asks_rules(system: &System<'_>, may_cancel: bool, kernels: &[Option<Kernel>]) -> bool {
+    system.rules.of_displacement.iter().zip(kernels).any(|(rule, kernel)| {
+        let asks = kernel.is_none() || system.second || may_cancel && rule.asks_for_cancelling_terms();
+        rule.joint().is_none() && asks
+    })
+}
+
+/// The step by the functions of the rule: a term for each of L, R and f that the system has, or L and R
+/// together.
+fn of_terms(system: &System<'_>, rule: Rule) -> Kernel {
+    let name = rule.ident();
+    let joint = rule.joint();
+    let [step_kernel, momenta] = ["kernel", "momenta"].map(|function| {
+        if joint.is_some() {
+            let function = if function == "kernel" { quote!(step_kernel) } else { quote!(momenta) };
+            return quote!(<#name as JointRule>::#function(self, q0, v, h));
+        }
+        // Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0, v, h)
+        let terms = system.parts().map(|part| format_ident!("{}_{function}", part.name()));
+        quote!(#(#name::#terms(self, q0, v, h))+*)
+    });
+    Kernel {
+        step_kernel,
+        momenta,
+        diagonals: None,
+        is_linear: joint.is_some_and(|joint| joint.is_linear),
+        memory: joint.map_or(Memory::Velocities, |joint| Memory::OfRule(joint.memory)),
+        explicit: None,
+        explicit_in_lanes: None,
+        in_lanes: None,
     }
 }
 
@@ -248,37 +208,4 @@ pub fn offered_methods(system: &System<'_>, is_explicit: bool) -> Option<TokenSt
             type Methods = #methods;
         }
     })
-}
-
-/// `impl DiscreteRayleigh<Midpoint, 2> for Ring`; nothing where the rule's force has no R_d.
-pub fn discrete_rayleigh(system: &System<'_>, rule: Rule) -> TokenStream {
-    if !rule.has_discrete_rayleigh(system.degrees.literal()) {
-        return TokenStream::new();
-    }
-    let as_trait = rule.joint().map(|_| quote!(JointRayleighRule));
-    let scalar = &system.scalar;
-    let n = system.degrees.times(1);
-    let subject = subject(system, system.home());
-    let rayleigh = rule.entry().rayleigh;
-    let rule = rule.ident();
-    let functions = as_trait.map_or_else(|| quote!(#rule), |joint| quote!(<#rule as #joint>));
-    quote! {
-        #[automatically_derived]
-        impl DiscreteRayleigh<#rule, #n> for #subject {
-            #[doc = #rayleigh]
-            fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
-                #functions::discrete_rayleigh(self, q0, q1, h)
-            }
-
-            /// R_d with D1, D2, D11, D12, D22.
-            fn discrete_rayleigh_derivatives(
-                &self,
-                q0: &Vector,
-                q1: &Vector,
-                h: #scalar,
-            ) -> Derivatives<#scalar, #n> {
-                #functions::discrete_rayleigh_derivatives(self, q0, q1, h)
-            }
-        }
-    }
 }
