@@ -21,10 +21,7 @@ pub use crate::run::{
     DriftMemory, Explicit, ExplicitDriftMemory, ExplicitInLanes, ExplicitMemory, KeptMatrix, VelocityHistory,
 };
 #[doc(no_inline)]
-pub use crate::step::{
-    Discrete, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteInLanes, DiscreteParameters,
-    DiscreteRayleigh, DiscreteSecondOrder, Momenta, MomentaBy, StartByInput, StepKernel,
-};
+pub use crate::step::{DiscreteInLanes, DiscreteSecondOrder, Momenta, StartByInput, StepKernel};
 #[doc(no_inline)]
 pub use crate::system::{
     ActingForce, CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian, ForcedLagrangianInLanes,

@@ -23,8 +23,8 @@ use crate::system::{
 /// A system discretised by rule `R`: L_d, f_d and what follows from them.
 ///
 /// Of a system whose rule is listed the runtime makes it, from the step that `#[rayleigh_system]` writes
-/// ([`Fused`](crate::rules::Fused)) and the formulas of the rule. The provided functions hold for every system
-/// and rule. How the step's equation is solved, [`Flow`] says: for a rule of one's own that is
+/// ([`Fused`](crate::rules::Fused)) and the formulas of the rule. The provided functions hold for every
+/// system and rule. How the step's equation is solved, [`Flow`] says: for a rule of one's own that is
 /// [`SolvedForVelocity`](crate::rules::SolvedForVelocity), the runtime does.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not discretised by `{R}`",
