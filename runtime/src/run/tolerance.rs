@@ -7,7 +7,9 @@ mod estimate;
 mod grid;
 mod guard;
 mod hardest;
+mod method;
 mod methods;
+mod offers;
 mod phase;
 mod random;
 mod reached;
@@ -20,41 +22,17 @@ mod twin;
 mod unresolved;
 mod variation;
 
-use nalgebra::ComplexField;
-
 use crate::numbers::Scalar;
 use crate::rules::SLACK;
 use crate::step::{State, StepError, verify_start};
 use crate::system::{ActingForce, Lagrangian};
 use grid::{Bounds, Breaks, Segment};
 pub use guard::{GuardedCheckpoint, GuardedTrajectory};
+pub use method::Method;
 pub use methods::{LastStep, MethodStep, Methods, Taken, WithGauss, WithSplittings};
+pub use offers::OffersMethods;
 pub use reached::Reached;
-pub use request::{OffersMethods, Request, TimedRequest};
-
-/// A method of constant step: a self-adjoint rule of order 2, alone or composed, a splitting, or a Gauss
-/// method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub enum Method {
-    /// The rule alone, order 2.
-    Rule,
-    /// [`Composition::kahan_li_6`](crate::Composition::kahan_li_6) of it.
-    KahanLi6,
-    /// [`Composition::kahan_li_8`](crate::Composition::kahan_li_8) of it.
-    KahanLi8,
-    /// [`Splitting::blanes_moan_4`](crate::Splitting::blanes_moan_4).
-    BlanesMoan4,
-    /// [`Splitting::blanes_moan_6`](crate::Splitting::blanes_moan_6).
-    BlanesMoan6,
-    /// [`Splitting::blanes_casas_escorihuela_8`](crate::Splitting::blanes_casas_escorihuela_8).
-    BlanesCasasEscorihuela8,
-    /// [`Gauss<4>`](crate::Gauss), order 8.
-    Gauss4,
-    /// [`Gauss<8>`](crate::Gauss), order 16.
-    Gauss8,
-}
+pub use request::{Request, TimedRequest};
 
 /// One method tried at the start: its step size, and the cost and error expected.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -252,30 +230,6 @@ impl<S, const N: usize> Chosen<S, N> {
 }
 
 impl Method {
-    /// All of them.
-    pub const ALL: [Self; 8] = [
-        Self::Rule,
-        Self::KahanLi6,
-        Self::KahanLi8,
-        Self::BlanesMoan4,
-        Self::BlanesMoan6,
-        Self::BlanesCasasEscorihuela8,
-        Self::Gauss4,
-        Self::Gauss8,
-    ];
-
-    /// The order p.
-    #[must_use]
-    pub const fn order(self) -> u32 {
-        match self {
-            Self::Rule => 2,
-            Self::BlanesMoan4 => 4,
-            Self::KahanLi6 | Self::BlanesMoan6 => 6,
-            Self::KahanLi8 | Self::BlanesCasasEscorihuela8 | Self::Gauss4 => 8,
-            Self::Gauss8 => 16,
-        }
-    }
-
     /// The method and step size of least cost for an error of at most `tolerance` on the whole way.
     ///
     /// `methods` is the rule of order 2, which stands for itself and its compositions; [`WithSplittings`] of
@@ -353,61 +307,6 @@ impl Method {
         M: Methods<L, N>,
     {
         bounded((system, methods), start, [time, tolerance], Bounds::default())
-    }
-
-    /// Whether its steps show what they do not resolve.
-    const fn is_gauss(self) -> bool {
-        matches!(self, Self::Gauss4 | Self::Gauss8)
-    }
-
-    /// Roundings of q in a step.
-    const fn roundings(self) -> f64 {
-        match self {
-            // Compensated: the rounding is that of the increment.
-            Self::Gauss4 | Self::Gauss8 => 0.1,
-            Self::Rule => 1.0,
-            Self::KahanLi6 => 9.0,
-            Self::KahanLi8 => 17.0,
-            Self::BlanesMoan4 => 6.0,
-            Self::BlanesMoan6 => 11.0,
-            Self::BlanesCasasEscorihuela8 => 19.0,
-        }
-    }
-
-    /// The angle hω at which the method's error by radian of an oscillator is `relative`.
-    fn usual_angle(self, relative: f64) -> f64 {
-        let (constant, longest): (f64, f64) = match self {
-            Self::Rule => (5e-2, 1.0),
-            Self::KahanLi6 => (1e-3, 1.5),
-            Self::KahanLi8 => (1e-4, 2.0),
-            Self::BlanesMoan4 => (1e-4, 2.5),
-            Self::BlanesMoan6 => (2e-6, 3.0),
-            Self::BlanesCasasEscorihuela8 => (5e-7, 3.0),
-            Self::Gauss4 => (4e-8, 3.0),
-            Self::Gauss8 => (2e-19, 5.0),
-        };
-        ComplexField::powf(relative / constant, 1.0 / f64::from(self.order())).min(longest)
-    }
-
-    /// The evaluations of such a step, where equations are solved in few iterations.
-    fn usual_step(self, relative: f64, is_explicit: bool) -> f64 {
-        let angle = self.usual_angle(relative);
-        let substep = if is_explicit { 2.0 } else { 9.0 };
-        match self {
-            Self::Rule => substep,
-            Self::KahanLi6 => 9.0 * substep,
-            Self::KahanLi8 => 17.0 * substep,
-            Self::BlanesMoan4 => 6.0,
-            Self::BlanesMoan6 => 11.0,
-            Self::BlanesCasasEscorihuela8 => 19.0,
-            Self::Gauss4 => 32.0 + 24.0 * angle,
-            Self::Gauss8 => 64.0 + 48.0 * angle,
-        }
-    }
-
-    /// The evaluations by radian with this step.
-    fn usual_cost(self, relative: f64, is_explicit: bool) -> f64 {
-        self.usual_step(relative, is_explicit) / self.usual_angle(relative)
     }
 }
 

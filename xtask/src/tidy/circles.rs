@@ -32,8 +32,6 @@ const KNOWN: &[&str] = &[
     "runtime/numbers/dual: {derivatives, singular}",
     "runtime/numbers/dual: {lift, real}",
     "runtime/numbers/linear: {banded, dense, of_members}",
-    "runtime/rules/gauss/in_lanes: {allowances, floors, sweeps}",
-    "runtime/run/tolerance: {guard, request}",
     "tests/examples/random_programs: {batch, lowered, members, trial, verdict}",
 ];
 

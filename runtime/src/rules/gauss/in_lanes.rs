@@ -10,6 +10,7 @@
 
 mod allowances;
 mod floors;
+mod seen;
 mod sweeps;
 
 use allowances::SlackOfMembers;

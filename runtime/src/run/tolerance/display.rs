@@ -1,24 +1,9 @@
-//! `Display` of methods, trials, choices, breaches and refusals.
+//! `Display` of trials, choices, breaches and refusals.
 
 use core::fmt;
 
-use super::{Breach, Choice, Chosen, Method, ToleranceError, Trial};
+use super::{Breach, Choice, Chosen, ToleranceError, Trial};
 use crate::system::Lagrangian;
-
-impl fmt::Display for Method {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Rule => f.write_str("order 2, the rule alone"),
-            Self::KahanLi6 => f.write_str("order 6 in 9 substeps"),
-            Self::KahanLi8 => f.write_str("order 8 in 17 substeps"),
-            Self::BlanesMoan4 => f.write_str("order 4, splitting with 6 kicks"),
-            Self::BlanesMoan6 => f.write_str("order 6, splitting with 11 kicks"),
-            Self::BlanesCasasEscorihuela8 => f.write_str("order 8, splitting with 19 kicks"),
-            Self::Gauss4 => f.write_str("order 8, Gauss with 4 stages"),
-            Self::Gauss8 => f.write_str("order 16, Gauss with 8 stages"),
-        }
-    }
-}
 
 impl fmt::Display for Trial {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

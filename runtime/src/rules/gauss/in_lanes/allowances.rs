@@ -1,6 +1,6 @@
 //! How far the sweeps of several members go where an error is asked for at an end.
 
-use super::sweeps::Seen;
+use super::seen::Seen;
 use crate::numbers::members::coordinate_by_coordinate;
 use crate::numbers::{Mask, MemberVector, Members, Scalar};
 use crate::rules::gauss::slack::{ROUNDINGS, Slack, remaining};

@@ -1,6 +1,6 @@
 //! How far the sweeps of several members go to solve their stages to rounding.
 
-use super::sweeps::Seen;
+use super::seen::Seen;
 use crate::numbers::members::coordinate_by_coordinate;
 use crate::numbers::{Mask, MemberVector, Members, Scalar};
 use crate::rules::gauss::fixed_point::{AT_REST, CHANGED, NEAR, SLUGGISH};

@@ -3,6 +3,7 @@
 use super::StagesInLanes;
 use super::allowances::Allowances;
 use super::floors::{Floors, Terms};
+use super::seen::Seen;
 use crate::numbers::members::{coordinate_by_coordinate, each_stage, stage_by_stage};
 use crate::numbers::{Blank, CompensatedMembers, Mask, MemberVector, Members, Scalar};
 use crate::rules::gauss::fixed_point::MAX_ITERATIONS;
@@ -43,34 +44,6 @@ pub(super) type SweepsOf<L, const N: usize, const S: usize, const W: usize> = Sw
     S,
     W,
 >;
-
-/// The sizes of the residuals and corrections of one sweep.
-#[derive(Clone, Copy)]
-pub(super) struct Seen<T, const N: usize, const W: usize> {
-    /// The largest residual of each coordinate.
-    pub(super) residual: MemberVector<T, N, W>,
-    /// The largest correction.
-    pub(super) correction: Members<T, W>,
-    /// The sum of all, in which NaN and infinity stay.
-    pub(super) sum: Members<T, W>,
-}
-
-impl<T: Scalar, const N: usize, const W: usize> Seen<T, N, W> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn nothing() -> Self {
-        let none = Members::splat(T::zero());
-        Self { residual: [none; N], correction: none, sum: none }
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn of_both([a, b]: &[Self; 2]) -> Self {
-        let mut residual = a.residual;
-        coordinate_by_coordinate!(i => {
-            residual[i] = a.residual[i].larger(b.residual[i]);
-        });
-        Self { residual, correction: a.correction.larger(b.correction), sum: a.sum + b.sum }
-    }
-}
 
 /// The stages of a step, for the members that are solved.
 pub(super) struct Solved<T, const N: usize, const S: usize, const W: usize> {
