@@ -59,15 +59,8 @@ pub struct Choice<'a, L: Lagrangian<N>, M, const N: usize> {
 
 /// The method and step size chosen for a start, with the error and cost expected.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(
-        serialize = "S: Scalar + serde::Serialize",
-        deserialize = "S: Scalar + serde::Deserialize<'de>"
-    ))
-)]
-struct Chosen<S, const N: usize> {
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Chosen<S: Scalar, const N: usize> {
     start: State<S, N>,
     method: Method,
     /// The whole time.
@@ -217,7 +210,7 @@ fn local_error<S: Scalar, const N: usize>(
     State { q: (whole.q - halves.q) * factor, p: (whole.p - halves.p) * factor }
 }
 
-impl<S, const N: usize> Chosen<S, N> {
+impl<S: Scalar, const N: usize> Chosen<S, N> {
     /// The first segment of its grid.
     fn first_segment(&self) -> Segment {
         Segment::first(self.time, self.step_size, &self.breaks)

@@ -13,15 +13,8 @@ const REMEMBERED: f64 = 0.9;
 
 /// J as it changes along a run.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(
-        serialize = "S: Scalar + serde::Serialize",
-        deserialize = "S: Scalar + serde::Deserialize<'de>"
-    ))
-)]
-pub(super) struct Drive<S, const N: usize> {
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Drive<S: Scalar, const N: usize> {
     /// J where the run starts.
     start: PhaseMatrix<S, N>,
     /// The largest ∂q̇/∂p, ∂ṗ/∂q, and of the others.

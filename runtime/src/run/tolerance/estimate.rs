@@ -67,15 +67,8 @@ pub(super) struct Since<S, const N: usize> {
 
 /// The error of a run so far.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(
-        serialize = "S: Scalar + serde::Serialize",
-        deserialize = "S: Scalar + serde::Deserialize<'de>"
-    ))
-)]
-pub(super) struct Estimate<S, const N: usize> {
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Estimate<S: Scalar, const N: usize> {
     /// δ, the run less the motion, at the state last looked at.
     error: State<S, N>,
     /// Random samples of δ's uncertainty: by rounding, by the error of δ itself, and by steps that were not

@@ -15,7 +15,6 @@ use super::unresolved::Unresolved;
 use super::{
     Breach, Choice, Chosen, LastStep, MethodStep, Methods, OffersMethods, ToleranceError, local_error,
 };
-#[cfg(feature = "serde")]
 use crate::numbers::Scalar;
 use crate::run::present::at_present;
 use crate::run::{Run, Samples};
@@ -70,30 +69,16 @@ where
 /// A guarded run as it can be saved: [`GuardedTrajectory::checkpoint`]. With the feature `serde` it can be
 /// written and read, in a format that holds infinite numbers where an expected error is one (JSON does not).
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(
-        serialize = "S: Scalar + serde::Serialize",
-        deserialize = "S: Scalar + serde::Deserialize<'de>"
-    ))
-)]
-pub struct GuardedCheckpoint<S, const N: usize> {
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct GuardedCheckpoint<S: Scalar, const N: usize> {
     chosen: Chosen<S, N>,
     guard: Guard<S, N>,
 }
 
 /// Where a guarded run stands, and what its guard knows.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(
-        serialize = "S: Scalar + serde::Serialize",
-        deserialize = "S: Scalar + serde::Deserialize<'de>"
-    ))
-)]
-struct Guard<S, const N: usize> {
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Guard<S: Scalar, const N: usize> {
     state: State<S, N>,
     taken: u64,
     segment: Segment,

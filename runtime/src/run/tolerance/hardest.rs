@@ -6,15 +6,8 @@ use crate::step::State;
 
 /// The step that erred most, and the sum of what all erred by.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(
-        serialize = "S: Scalar + serde::Serialize",
-        deserialize = "S: Scalar + serde::Deserialize<'de>"
-    ))
-)]
-pub(super) struct Hardest<S, const N: usize> {
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Hardest<S: Scalar, const N: usize> {
     /// The state before it.
     pub(super) state: State<S, N>,
     /// The time there, and the step size.

@@ -5,6 +5,7 @@ use nalgebra::ComplexField;
 use super::grid::{Bounds, segments};
 use super::hardest::Hardest;
 use super::{Breach, Choice, Chosen, Methods, ToleranceError, Trial, bounded, search};
+use crate::numbers::Scalar;
 use crate::step::{State, StepError};
 use crate::system::{ActingForce, Lagrangian};
 
@@ -45,7 +46,7 @@ pub struct Reached<'a, L: Lagrangian<N>, M, const N: usize> {
 }
 
 /// A run that was followed to its end, or until a step of it failed.
-pub(super) struct Followed<S, const N: usize> {
+pub(super) struct Followed<S: Scalar, const N: usize> {
     pub(super) state: State<S, N>,
     pub(super) expected: f64,
     /// The largest error expected on the way.
@@ -118,7 +119,7 @@ where
     }
 }
 
-impl<S, const N: usize> Chosen<S, N> {
+impl<S: Scalar, const N: usize> Chosen<S, N> {
     /// Its method and step size, as they would be tried.
     fn trial(&self) -> Trial {
         let Self { method, step_size, steps, expected, evaluations_per_step, .. } = *self;

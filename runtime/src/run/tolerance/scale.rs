@@ -7,15 +7,8 @@ use crate::step::State;
 
 /// How an error of p counts beside one of q: the norm of a [`Choice`](super::Choice)'s promise.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(
-        serialize = "S: Scalar + serde::Serialize",
-        deserialize = "S: Scalar + serde::Deserialize<'de>"
-    ))
-)]
-pub(super) struct Scale<S, const N: usize> {
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Scale<S: Scalar, const N: usize> {
     start: SVector<S, N>,
     /// The largest distance of a coordinate from its start, and the largest momentum.
     reached: [S; 2],

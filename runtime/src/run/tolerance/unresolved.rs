@@ -24,15 +24,8 @@ struct Sums {
 /// One of the two is even about the middle of a step, the other odd: of an oscillation they are a quarter of
 /// a turn apart. Weighed by the largest that they have been, the two together do not depend on its phase.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(
-        serialize = "S: Scalar + serde::Serialize",
-        deserialize = "S: Scalar + serde::Deserialize<'de>"
-    ))
-)]
-pub(super) struct Unresolved<S, const N: usize> {
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Unresolved<S: Scalar, const N: usize> {
     /// The largest.
     largest: [f64; 2],
     /// Since the last look and since the error was carried last: the sums of the squares, and of their roots.

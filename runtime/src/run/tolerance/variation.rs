@@ -21,15 +21,8 @@ use crate::system::{ActingForce, Lagrangian};
 
 /// The motion at one state.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(
-        serialize = "S: Scalar + serde::Serialize",
-        deserialize = "S: Scalar + serde::Deserialize<'de>"
-    ))
-)]
-pub(super) struct Variation<S, const N: usize> {
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Variation<S: Scalar, const N: usize> {
     /// f = (v, ṗ).
     pub(super) rate: State<S, N>,
     /// J.
