@@ -155,7 +155,10 @@ impl Motion {
                 )
             }),
             reach: Box::new(move |tolerance| {
-                let reached = system.to_error(tolerance).among(methods).until(time).end(&start);
+                let request = system.to_error(tolerance).among(methods).until(time);
+                // Without optimisation 10⁷ steps take minutes.
+                let most = if cfg!(debug_assertions) { 200_000 } else { 10_000_000 };
+                let reached = request.at_most(most).end(&start);
                 let runs = reached.as_ref().map_or(0, |reached| reached.runs);
                 (measured(reached.map(|reached| reached.choice), start, tolerance, &of_reach), runs)
             }),

@@ -204,7 +204,7 @@ fn kepler(q: [f64; 2], v: [f64; 2]) -> f64 {
 }
 
 #[test]
-fn work_is_bounded_in_evaluations_and_all_runs_of_an_end_count_together() {
+fn work_is_bounded_and_all_runs_of_an_end_count_together() {
     // From the apocentre: the first run passes its error at the pericentre.
     let start = State::from_velocity(&Kepler {}, [-1.6, 0.0], [0.0, -0.5]).unwrap();
     let request = Kepler {}.to_error(1e-8).until(20.0);
@@ -215,6 +215,10 @@ fn work_is_bounded_in_evaluations_and_all_runs_of_an_end_count_together() {
     assert!(first < 0.5 * all);
     assert!(request.at_most_evaluations(2.0 * first).choice(&start).is_ok());
     assert!(request.at_most_evaluations(1.01 * all).end(&start).is_ok());
+    let steps = [choice.steps(), reached.choice.steps()];
+    assert!(request.at_most(steps[0] + steps[1]).end(&start).is_ok());
+    // Enough for each run alone.
+    assert!(matches!(request.at_most(steps[0].max(steps[1])).end(&start), Err(ToleranceError::Breach(_))));
     // No second run: the error of the first.
     assert!(matches!(request.at_most_evaluations(2.0 * first).end(&start), Err(ToleranceError::Breach(_))));
     let error = request.at_most_evaluations(0.1 * first).choice(&start).unwrap_err();

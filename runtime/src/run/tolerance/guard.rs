@@ -266,6 +266,11 @@ where
         self.guard.largest
     }
 
+    /// How many steps were taken.
+    pub(super) fn taken(&self) -> u64 {
+        self.guard.taken
+    }
+
     /// The step that erred most of those looked at.
     pub(super) fn hardest(&self) -> &Hardest<L::Scalar, N> {
         &self.guard.hardest

@@ -54,6 +54,8 @@ pub(super) struct Followed<S: Scalar, const N: usize> {
     pub(super) hardest: Hardest<S, N>,
     pub(super) breach: Option<Breach>,
     pub(super) failure: Option<StepError>,
+    /// How many steps it took.
+    pub(super) steps: u64,
     /// The cost of its steps and its guard.
     pub(super) evaluations: f64,
 }
@@ -77,9 +79,10 @@ where
 {
     let mut aim = tolerance;
     let mut choice = bounded((system, methods), start, [time, tolerance], bounds)?;
-    let (mut runs, mut evaluations) = (1, 0.0);
+    let (mut runs, mut taken, mut evaluations) = (1, 0.0, 0.0);
     loop {
         let run = follow(&choice);
+        taken += run.steps as f64;
         evaluations += choice.chosen.spent + run.evaluations;
         if bounds.stop.is_asked() {
             return Err(ToleranceError::Stopped);
@@ -112,7 +115,7 @@ where
         };
         choice.chosen.tolerance = tolerance;
         let Chosen { steps, rate, .. } = choice.chosen;
-        let (steps, needed) = (steps as f64, choice.chosen.trial());
+        let (steps, needed) = (taken + steps as f64, choice.chosen.trial());
         if bounds.share(steps, evaluations + needed.evaluations) > 1.0 {
             return Err(error.unwrap_or_else(|| bounds.refusal(needed, steps, rate)));
         }

@@ -75,7 +75,8 @@ impl<'a, L, M> Request<'a, L, M> {
 
 impl<'a, L, M> TimedRequest<'a, L, M> {
     /// In no more than so many steps, 10⁷ unless said: more are [`ToleranceError::TooManySteps`], which
-    /// says how long a step would be needed. It is told before the run, so that no call goes on for ever.
+    /// says how long a step would be needed. It is told before the run, so that no call goes on for ever; of
+    /// [`end`](Self::end) the steps of all runs count together.
     pub fn at_most(mut self, steps: u64) -> Self {
         self.bounds.most = steps;
         self
@@ -273,6 +274,7 @@ impl<'a, L, M> TimedRequest<'a, L, M> {
                 hardest: *run.hardest(),
                 breach: run.breach().copied(),
                 failure,
+                steps: run.taken(),
                 evaluations: of_steps + of_guard,
             }
         })
