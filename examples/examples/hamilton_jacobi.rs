@@ -149,12 +149,12 @@ fn main() -> Result<()> {
     println!("Damped oscillator, m = k = 1, r = 1/2, h = 1/4, closed-form S_k, k = 0 … {steps}\n");
     let samples = spread(-2.0, 2.0, 9).into_iter().map(|q| vector![q]).collect::<Vec<_>>();
     println!("{}", theory.check_generating_functions(&family, &samples)?);
-    println!("{}", theory.characteristics_report(&fan));
+    println!("{}", theory.characteristics_report(&fan)?);
     let trajectory: Vec<_> = fan[12].states.iter().map(|state| state.q).collect();
     println!("The same S_k in the equations as the paper prints them, on the characteristic from q = 1:\n");
     println!("{}", theory.as_printed(&family, &trajectory)?);
     println!("{}", theory.along_trajectory(&trajectory)?);
-    println!("{}", theory.hamilton_equations(&trajectory));
+    println!("{}", theory.hamilton_equations(&trajectory)?);
 
     let (rest, swings) = (Quadratic { s: 0.0, lambda: 0.0, constant: 0.0 }, 40);
     let swinging = Pendulum { r: 0.1 };
@@ -162,7 +162,7 @@ fn main() -> Result<()> {
     let swing_carry = |q: f64| swing.carry(&rest, &vector![q], swings);
     let swing_fan = spread(-2.9, 2.9, 41).into_iter().map(swing_carry).collect::<Result<Vec<_>, _>>()?;
     println!("Damped pendulum, r = 1/10, h = 1/10, released at rest\n");
-    println!("{}", swing.characteristics_report(&swing_fan));
+    println!("{}", swing.characteristics_report(&swing_fan)?);
     let dense = spread(-2.9, 2.9, 401).into_iter().map(swing_carry).collect::<Result<Vec<_>, _>>()?;
 
     let plane = Hollow { a: 0.1 };

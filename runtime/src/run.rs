@@ -17,10 +17,10 @@ mod pace;
 mod present;
 mod scaled_time;
 mod splitting;
-mod stop;
 pub mod tolerance;
 mod trajectory;
 
+pub use crate::step::stop::Stop;
 pub use checkpoint::Checkpoint;
 pub(crate) use checkpoint::Course;
 pub use composition::Composition;
@@ -30,6 +30,5 @@ pub use held_input::{Carried, HeldInput, InPeriod, Period, Sensitivities};
 pub use lanes::{ExplicitInLanes, InLanes, LaneRuns};
 pub use memory::{DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, VelocityHistory};
 pub use splitting::Splitting;
-pub use stop::Stop;
 pub(crate) use trajectory::TakenUntil;
 pub use trajectory::{Run, Sample, Samples, Trajectory};

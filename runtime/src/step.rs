@@ -26,6 +26,7 @@ mod solve;
 mod solved_for_velocity;
 mod start;
 mod state;
+pub(crate) mod stop;
 mod taken;
 mod velocity_history;
 

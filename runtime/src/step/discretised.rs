@@ -8,6 +8,8 @@ use nalgebra::SVector;
 
 use crate::numbers::Derivatives;
 use crate::step::discrete::explained_on;
+#[cfg(feature = "theory")]
+use crate::step::stop::Stop;
 use crate::step::{
     BoundedFlow, BoundedStep, ClosedForm, Discrete, DiscreteForce, DiscreteRayleigh, DiscreteSegment, Flow,
     LegendreDerivatives, State, Step, StepError, require_step_size,
@@ -47,6 +49,9 @@ where
     pub(crate) system: &'a L,
     pub(crate) h: L::Scalar,
     pub(crate) guess: Option<SVector<L::Scalar, N>>,
+    /// By what a check of many samples is ended.
+    #[cfg(feature = "theory")]
+    pub(crate) stop: Stop<'a>,
     rule: PhantomData<fn() -> R>,
 }
 
@@ -82,7 +87,14 @@ where
     L: Lagrangian<N>,
 {
     pub(crate) fn new(system: &'a L, h: L::Scalar) -> Self {
-        Self { system, h, guess: None, rule: PhantomData }
+        Self {
+            system,
+            h,
+            guess: None,
+            #[cfg(feature = "theory")]
+            stop: Stop::never(),
+            rule: PhantomData,
+        }
     }
 
     /// The system.
@@ -103,10 +115,45 @@ where
         Self { h, ..self }
     }
 
-    /// This rule and h with another system, such as this one at another time.
+    /// This rule and h with another system, such as this one at another time. It asks nobody whether to end.
     #[cfg(feature = "theory")]
     pub(crate) fn of<'b>(&self, system: &'b L) -> Discretised<'b, L, R, N> {
-        Discretised { system, h: self.h, guess: self.guess, rule: PhantomData }
+        Discretised { system, h: self.h, guess: self.guess, stop: Stop::never(), rule: PhantomData }
+    }
+
+    /// Ends a check as soon as `stop` is asked to end, with an error that says so: whatever looks at many
+    /// segments, states or steps asks before each of them.
+    ///
+    /// Steps ask nobody, nor does a run, which its caller takes step by step.
+    ///
+    /// ```
+    /// use std::sync::atomic::{AtomicBool, Ordering};
+    ///
+    /// use dalembert::noether::Generator;
+    /// use dalembert::run::Stop;
+    /// use dalembert::samples::{SampleError, segments};
+    /// use dalembert::{Discretise, Midpoint, rayleigh_system};
+    ///
+    /// #[rayleigh_system]
+    /// fn puck(q: [f64; 2], v: [f64; 2], r: f64) -> (f64, f64) {
+    ///     let kinetic = 0.5 * (v[0] * v[0] + v[1] * v[1]);
+    ///     (kinetic, r * kinetic)
+    /// }
+    /// // Another thread may set it, or a handler of signals.
+    /// let flag = AtomicBool::new(false);
+    /// let is_asked = || flag.load(Ordering::Relaxed);
+    /// let puck = Puck { r: 0.1 };
+    /// let noether = puck.by(Midpoint, 0.1).stopped_by(Stop::when(&is_asked)).noether();
+    /// let along_x = Generator::translation("x", [1.0, 0.0]);
+    /// let segments = segments([-1.0; 2], [1.0; 2], [0.1; 2], 50);
+    /// assert!(noether.symmetry(&along_x, &segments).is_ok());
+    /// flag.store(true, Ordering::Relaxed);
+    /// assert_eq!(noether.symmetry(&along_x, &segments), Err(SampleError::Stopped));
+    /// ```
+    #[cfg(feature = "theory")]
+    #[must_use]
+    pub fn stopped_by(self, stop: Stop<'a>) -> Self {
+        Self { stop, ..self }
     }
 
     /// Steps whose mean velocity v̄ = (q1 − q0)/h is near `velocity`, such as that of the step before:

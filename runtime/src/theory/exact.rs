@@ -56,6 +56,7 @@ mod work;
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::step::stop::Stop;
 use crate::step::{Quantity, State, StepError};
 use crate::system::ActingForce;
 
@@ -76,6 +77,7 @@ use work::Work;
 pub struct Exact<'a, L, const N: usize> {
     system: &'a L,
     is_forced: bool,
+    stop: Stop<'a>,
 }
 
 impl<L, const N: usize> Clone for Exact<'_, L, N> {
@@ -92,12 +94,18 @@ where
 {
     /// The objects of L with the force f_L = −∂R/∂v + f, as far as the system has R and f.
     pub fn new(system: &'a L) -> Self {
-        Self { system, is_forced: true }
+        Self { system, is_forced: true, stop: Stop::never() }
     }
 
     /// The objects of L alone, whatever else the system has.
     pub fn unforced(system: &'a L) -> Self {
-        Self { system, is_forced: false }
+        Self { system, is_forced: false, stop: Stop::never() }
+    }
+
+    /// Ends a question as soon as `stop` is asked to end, with [`ExactError::Stopped`].
+    #[must_use]
+    pub fn stopped_by(self, stop: Stop<'a>) -> Self {
+        Self { stop, ..self }
     }
 
     /// Evaluations of L and f, with their derivatives, that one question may take. A segment in the tests
@@ -150,13 +158,14 @@ where
     /// [`ExactError::NotDifferentiable`] where third derivatives of L cannot be had by differences of the
     /// second ones; otherwise as [`segment`](Self::segment).
     pub fn second_derivatives(&self, segment: &ExactSegment<N>) -> Result<SecondDerivatives<N>, ExactError> {
-        let work = Work::new();
-        if segment.course.reversed {
-            let turned = segment.reversed();
-            Ok(second::second_derivatives(self.dynamics(segment.h, &work), &turned)?.reversed())
-        } else {
-            second::second_derivatives(self.dynamics(0.0, &work), segment)
-        }
+        self.asked(|work| {
+            if segment.course.reversed {
+                let turned = segment.reversed();
+                Ok(second::second_derivatives(self.dynamics(segment.h, work), &turned)?.reversed())
+            } else {
+                second::second_derivatives(self.dynamics(0.0, work), segment)
+            }
+        })
     }
 
     /// Whether f_d^ex is Rayleigh at (q0, q1), by the integrals of the paper's existence criterion.
@@ -181,10 +190,13 @@ where
     /// [`ExactError::Unresolved`], [`ExactError::TooMuchWork`].
     pub fn flow(&self, state: &State<f64, N>, h: f64) -> Result<State<f64, N>, ExactError> {
         require_step_size(h)?;
-        let work = Work::new();
-        let dynamics = self.dynamics(0.0, &work);
+        self.asked(|work| self.moved(state, h, work))
+    }
+
+    fn moved(&self, state: &State<f64, N>, h: f64, work: &Work<'_>) -> Result<State<f64, N>, ExactError> {
+        let dynamics = self.dynamics(0.0, work);
         let v = state.velocity(self.system).map_err(ExactError::at_start)?;
-        let local = dynamics.local(0.0, &state.q, &v).map_err(|breakdown| breakdown.at(0.0, &work))?;
+        let local = dynamics.local(0.0, &state.q, &v).map_err(|breakdown| breakdown.at(0.0, work))?;
         let start = Point {
             q: state.q,
             p: state.p,
@@ -213,18 +225,27 @@ where
         {
             StepError::require_finite(&vector, quantity).map_err(ExactError::at_start)?;
         }
-        let work = Work::new();
-        let forwards = Boundary { dynamics: self.dynamics(0.0, &work), q0, q1 };
-        let backwards = Boundary { dynamics: self.dynamics(h, &work), q0: q1, q1: q0 };
-        let (is_reversed, shot) = Self::shot(&forwards, &backwards, h, guess, &work)?;
-        require_accurate(h, shot.conditioning)?;
-        let segment = if is_reversed {
-            segment::along(&backwards, -h, &shot)?.reversed()
-        } else {
-            segment::along(&forwards, h, &shot)?
-        };
-        require_accurate(h, segment.report.error())?;
-        Ok(segment)
+        self.asked(|work| {
+            let forwards = Boundary { dynamics: self.dynamics(0.0, work), q0, q1 };
+            let backwards = Boundary { dynamics: self.dynamics(h, work), q0: q1, q1: q0 };
+            let (is_reversed, shot) = Self::shot(&forwards, &backwards, h, guess, work)?;
+            require_accurate(h, shot.conditioning)?;
+            let segment = if is_reversed {
+                segment::along(&backwards, -h, &shot)?.reversed()
+            } else {
+                segment::along(&forwards, h, &shot)?
+            };
+            require_accurate(h, segment.report.error())?;
+            Ok(segment)
+        })
+    }
+
+    /// The answer to one question, with the work that it may take.
+    fn asked<T>(&self, answer: impl FnOnce(&Work<'_>) -> Result<T, ExactError>) -> Result<T, ExactError> {
+        let work = Work::new(self.stop);
+        let answer = answer(&work);
+        // Attempts that end early are followed by others: it may have been any error.
+        if work.is_stopped() { Err(ExactError::Stopped) } else { answer }
     }
 
     /// The motion, from the end that tells it well, and whether that is q1.
@@ -233,7 +254,7 @@ where
         backwards: &Boundary<'_, L, N>,
         h: f64,
         guess: Option<SVector<f64, N>>,
-        work: &Work,
+        work: &Work<'_>,
     ) -> Result<(bool, Shot<N>), ExactError> {
         /// A shot whose start tells its end to so many digits needs no other.
         const WELL: f64 = 1e-12;
@@ -277,7 +298,7 @@ where
         }
     }
 
-    fn dynamics<'b>(&self, origin: f64, work: &'b Work) -> Dynamics<'b, L, N>
+    fn dynamics<'b>(&self, origin: f64, work: &'b Work<'_>) -> Dynamics<'b, L, N>
     where
         'a: 'b,
     {

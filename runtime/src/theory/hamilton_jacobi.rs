@@ -82,7 +82,7 @@ use nalgebra::SVector;
 
 use crate::numbers::Scalar;
 use crate::step::{Discrete, Discretised};
-use crate::theory::samples::at_segment;
+use crate::theory::samples::{at_segment, at_time_of};
 
 pub use caustics::Caustic;
 pub use characteristics::{Characteristic, CharacteristicsReport};
@@ -119,7 +119,7 @@ const ROUNDINGS: f64 = 256.0;
 /// let system = Oscillator { m: 1.0, k: 1.0, r: 0.5 };
 /// let theory = system.by(Midpoint, 0.25).hamilton_jacobi();
 ///
-/// let report = theory.hamilton_equations(&[vector![0.3], vector![0.5]]);
+/// let report = theory.hamilton_equations(&[vector![0.3], vector![0.5]])?;
 /// assert!(!report.right_momentum.printed?.holds());
 /// assert!(report.right_momentum.corrected?.holds());
 /// println!("{report}");
@@ -153,9 +153,21 @@ where
         (q1 - q0) / self.by.h
     }
 
-    /// `evaluate` of the theory at the start of step k.
-    fn at_step<T>(&self, k: usize, evaluate: impl FnOnce(&HamiltonJacobi<'_, L, R, N>) -> T) -> T {
-        at_segment(&self.by, k, |by| evaluate(&HamiltonJacobi { by: *by, relative: self.relative }))
+    /// `evaluate` of the theory at the start of step k, which a check comes to.
+    ///
+    /// Fails where the caller has ended it.
+    fn at_step<T>(
+        &self,
+        k: usize,
+        evaluate: impl FnOnce(&HamiltonJacobi<'_, L, R, N>) -> T,
+    ) -> Result<T, HamiltonJacobiError> {
+        let relative = self.relative;
+        Ok(at_segment(&self.by, k, |by| evaluate(&HamiltonJacobi { by: *by, relative }))?)
+    }
+
+    /// `evaluate` of the theory at the start of step k, which is one of those that a check looks at already.
+    fn in_step<T>(&self, k: usize, evaluate: impl FnOnce(&HamiltonJacobi<'_, L, R, N>) -> T) -> T {
+        at_time_of(&self.by, k, |by| evaluate(&HamiltonJacobi { by: *by, relative: self.relative }))
     }
 
     /// `evaluate` of the theory a step earlier.

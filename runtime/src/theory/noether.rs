@@ -64,7 +64,7 @@ use crate::numbers::Scalar;
 use crate::step::{Discrete, Discretised};
 use crate::system::VectorField;
 use crate::theory::{
-    samples::{Segment, Tolerance, at_segment},
+    samples::{Segment, Stopped, Tolerance, at_segment},
     verdict::largest,
 };
 
@@ -140,9 +140,9 @@ where
         k: usize,
         generator: &impl VectorField<N, Scalar = L::Scalar>,
         Segment { q0, q1 }: &Segment<L::Scalar, N>,
-    ) -> Terms {
-        let (defect, size) = at_segment(&self.by, k, |by| by.system.defect(generator, q0, q1, by.h));
-        Terms { defect: widened(&defect), size: widened(&size) }
+    ) -> Result<Terms, Stopped> {
+        let (defect, size) = at_segment(&self.by, k, |by| by.system.defect(generator, q0, q1, by.h))?;
+        Ok(Terms { defect: widened(&defect), size: widened(&size) })
     }
 }
 

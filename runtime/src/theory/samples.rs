@@ -35,6 +35,7 @@ use crate::step::Discretised;
 use crate::system::{Lagrangian, is_timed};
 pub use crate::theory::verdict::{Finding, Tolerance, Verdict};
 pub(crate) use apart::{Sizes, around, different};
+pub(crate) use error::STOPPED;
 pub use error::SampleError;
 
 /// A segment (q0, q1), a point of Q×Q.
@@ -164,19 +165,20 @@ pub fn tangent_points<S: Scalar, const N: usize>(
 }
 
 /// The additive quasi-random sequence in a number of dimensions.
-struct Ratios(f64);
+struct Ratios(Vec<f64>);
 
 impl Ratios {
     fn new(dimensions: usize) -> Self {
         // The fixed point of x = (1 + x)^{1/(d+1)}: the map contracts by less than ½, 64 iterations are
         // plenty.
         let exponent = 1.0 / (dimensions as f64 + 1.0);
-        Self((0..64).fold(1.5_f64, |g, _| (1.0 + g).powf(exponent)))
+        let g = (0..64).fold(1.5_f64, |g, _| (1.0 + g).powf(exponent));
+        Self((0..dimensions).map(|axis| g.powf(-(axis as f64 + 1.0))).collect())
     }
 
     /// Coordinate `axis` of point `k`, in [0, 1).
     fn share(&self, k: usize, axis: usize) -> f64 {
-        (0.5 + (k as f64 + 1.0) * self.0.powf(-(axis as f64 + 1.0))).fract()
+        (0.5 + (k as f64 + 1.0) * self.0[axis]).fract()
     }
 }
 
@@ -185,8 +187,23 @@ pub(crate) fn is_felt<S: Scalar, const N: usize>(vector: &SVector<S, N>) -> bool
     vector.iter().any(|entry| *entry * *entry >= S::SMALLEST_NORMAL || !entry.is_finite())
 }
 
-/// `evaluate` of a discretised system at the start of the k-th segment, k h after its own time.
+/// The caller has ended the check.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stopped;
+
+/// `evaluate` of a discretised system at the start of the k-th segment, k h after its own time, unless the
+/// caller ends the check: checkers go from sample to sample by this function, and ask here alone.
 pub(crate) fn at_segment<L: Lagrangian<N>, R, T, const N: usize>(
+    by: &Discretised<'_, L, R, N>,
+    k: usize,
+    evaluate: impl FnOnce(&Discretised<'_, L, R, N>) -> T,
+) -> Result<T, Stopped> {
+    if by.stop.is_asked() { Err(Stopped) } else { Ok(at_time_of(by, k, evaluate)) }
+}
+
+/// `evaluate` of a discretised system at the start of the k-th segment, whatever the caller says: of a sample
+/// that is looked at already.
+pub(crate) fn at_time_of<L: Lagrangian<N>, R, T, const N: usize>(
     by: &Discretised<'_, L, R, N>,
     k: usize,
     evaluate: impl FnOnce(&Discretised<'_, L, R, N>) -> T,

@@ -199,9 +199,12 @@ pub(crate) fn typical(sizes: impl Iterator<Item = f64>) -> f64 {
 
 /// The lower median, 0 of nothing.
 fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut sorted: Vec<f64> = values.collect();
-    sorted.sort_by(f64::total_cmp);
-    if sorted.is_empty() { 0.0 } else { sorted[(sorted.len() - 1) / 2] }
+    let mut all: Vec<f64> = values.collect();
+    if all.is_empty() {
+        return 0.0;
+    }
+    let middle = (all.len() - 1) / 2;
+    *all.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 #[cfg(test)]

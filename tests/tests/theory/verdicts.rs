@@ -6,4 +6,5 @@ mod poisoned_steps;
 mod random_samples;
 mod register;
 mod samples;
+mod stopped;
 mod time;

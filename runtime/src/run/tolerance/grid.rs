@@ -3,7 +3,7 @@
 use nalgebra::ComplexField;
 
 use super::{ToleranceError, Trial};
-use crate::run::Stop;
+use crate::step::stop::Stop;
 
 /// Times at which a system may break, at most.
 const MOST_BREAKS: usize = 16;

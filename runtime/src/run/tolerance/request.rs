@@ -5,7 +5,7 @@ use core::fmt;
 use super::grid::{Bounds, Breaks};
 use super::reached::{Followed, HOPELESS, Reached, reached};
 use super::{Choice, GuardedTrajectory, Methods, ToleranceError, bounded};
-use crate::run::Stop;
+use crate::step::stop::Stop;
 use crate::step::{State, StepError};
 use crate::system::ActingForce;
 

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use crate::step::{Quantity, StepError};
+use crate::theory::samples::STOPPED;
 
 /// Why an exact discrete object was not computed.
 #[derive(Clone, Copy, PartialEq)]
@@ -87,6 +88,8 @@ pub enum ExactError {
         /// The coordinate along which they were sought.
         index: usize,
     },
+    /// The caller has ended the question ([`Exact::stopped_by`](super::Exact::stopped_by)).
+    Stopped,
 }
 
 impl ExactError {
@@ -145,6 +148,7 @@ impl fmt::Display for ExactError {
                 "the {evaluations} evaluations of L and f that one question may take are spent, the last attempt at \
                  t = {time}; try a smaller h, or less stiff forces"
             ),
+            Self::Stopped => f.write_str(STOPPED),
             Self::RuleNotFinite { h } => {
                 write!(f, "the rule's discrete objects are not finite at h = {h}; give smaller step sizes")
             }

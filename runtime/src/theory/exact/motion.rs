@@ -24,7 +24,7 @@ pub(super) struct Dynamics<'a, L, const N: usize> {
     pub(super) is_forced: bool,
     /// The time of the system at which the motion starts.
     pub(super) origin: f64,
-    pub(super) work: &'a Work,
+    pub(super) work: &'a Work<'a>,
 }
 
 impl<L, const N: usize> Clone for Dynamics<'_, L, N> {

@@ -15,7 +15,6 @@ use core::fmt;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::work::Work;
 use super::{Exact, ExactError, ExactSegment};
 use crate::numbers::CovectorDerivatives;
 use crate::step::Discrete;
@@ -126,9 +125,10 @@ where
         &self,
         segment: &ExactSegment<N>,
     ) -> Result<CovectorDerivatives<f64, N>, ExactError> {
-        let work = Work::new();
-        let local = self.dynamics(0.0, &work).local(0.0, &segment.q0, &segment.v0);
-        local.map(|local| local.f).map_err(|breakdown| breakdown.at(0.0, &work))
+        self.asked(|work| {
+            let local = self.dynamics(0.0, work).local(0.0, &segment.q0, &segment.v0);
+            local.map(|local| local.f).map_err(|breakdown| breakdown.at(0.0, work))
+        })
     }
 
     fn sample<R>(&self, q0: &SVector<f64, N>, v: &SVector<f64, N>, h: f64) -> Result<OrderSample, ExactError>

@@ -136,8 +136,8 @@ where
                     theory.by.system.step(&state, self.by.h, None)
                 })
                 .map_err(ImplicitEquation::Step.at(k))?;
-                Ok((step, theory.legendre(&state.q, &step.state.q)))
-            })?;
+                Ok::<_, HamiltonJacobiError>((step, theory.legendre(&state.q, &step.state.q)))
+            })??;
             let linearization =
                 Linearization::from_legendre(&legendre).map_err(ImplicitEquation::Derivative.at(k))?;
             carried.advance(&linearization.a, step.state)?;
@@ -147,11 +147,13 @@ where
     }
 
     /// Closedness and caustics of carried characteristics.
-    #[must_use]
+    ///
+    /// # Errors
+    /// [`HamiltonJacobiError::Stopped`].
     pub fn characteristics_report(
         &self,
         characteristics: &[Characteristic<S, N>],
-    ) -> CharacteristicsReport<N> {
+    ) -> Result<CharacteristicsReport<N>, HamiltonJacobiError> {
         let mut closed = Worst::new(self.relative);
         let mut balance = Worst::new(self.relative);
         let mut caustics = Vec::new();
@@ -164,28 +166,33 @@ where
                 closed.antisymmetric_part(k, q, &frame.q.tr_mul(&frame.p), &size);
             }
             for k in 1..characteristic.frames.len() {
-                self.balance_at(&mut balance, characteristic, k - 1);
+                self.balance_at(&mut balance, characteristic, k - 1)?;
             }
             caustics.extend_from_slice(&characteristic.caustics);
         }
-        CharacteristicsReport {
+        Ok(CharacteristicsReport {
             closed: closed.outcome(),
             balance: balance.outcome(),
             caustics,
             characteristics: characteristics.len(),
             relative: self.relative,
-        }
+        })
     }
 
     /// Q_{k+1}ᵀP_{k+1} − Q_kᵀP_k − Tᵀ F T is symmetric, T = (Q_k, Q_{k+1}), F = ∂(f_d⁻, f_d⁺)/∂(q_k,
     /// q_{k+1}).
-    fn balance_at(&self, balance: &mut Worst<N>, characteristic: &Characteristic<S, N>, k: usize) {
+    fn balance_at(
+        &self,
+        balance: &mut Worst<N>,
+        characteristic: &Characteristic<S, N>,
+        k: usize,
+    ) -> Result<(), HamiltonJacobiError> {
         let [from, to] = [&characteristic.states[k], &characteristic.states[k + 1]];
         let [before, after] = [&characteristic.frames[k], &characteristic.frames[k + 1]];
         let (f, legendre) = self.at_step(k, |theory| {
             let f = theory.by.system.discrete_force_derivatives(&from.q, &to.q, self.by.h);
             (f, theory.legendre(&from.q, &to.q))
-        });
+        })?;
         let work = before.q.tr_mul(&(f.minus.d1 * before.q + f.minus.d2 * after.q))
             + after.q.tr_mul(&(f.plus.d1 * before.q + f.plus.d2 * after.q));
         let difference = after.q.tr_mul(&after.p) - before.q.tr_mul(&before.p) - work;
@@ -195,6 +202,7 @@ where
             + q0.tr_mul(&(legendre.p0_by_q0.abs() * q0 + legendre.p0_by_q1.abs() * q1))
             + q1.tr_mul(&(legendre.p1_by_q0.abs() * q0 + legendre.p1_by_q1.abs() * q1));
         balance.antisymmetric_part(k, &from.q, &difference, &magnitude);
+        Ok(())
     }
 }
 

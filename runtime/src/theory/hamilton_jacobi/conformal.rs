@@ -10,7 +10,7 @@ use crate::numbers::Scalar;
 use crate::step::{Discretised, Flow, PhaseMatrix, State, invert};
 use crate::system::ScalarField;
 use crate::theory::rayleigh::quadrature::integrate_sum;
-use crate::theory::rayleigh::{ConformalStep, Integral};
+use crate::theory::rayleigh::{ConformalStep, ConformalStepError, Integral};
 use crate::theory::samples::at_segment;
 use crate::theory::verdict::Verdict;
 
@@ -127,7 +127,10 @@ where
         &self,
         states: &[State<L::Scalar, N>],
     ) -> Result<ConformalHamiltonJacobi<'a, L, M, N>, HamiltonJacobiError> {
-        let report = self.conformal_step(states).map_err(HamiltonJacobiError::States)?;
+        let report = self.conformal_step(states).map_err(|error| match error {
+            ConformalStepError::Stopped => HamiltonJacobiError::Stopped,
+            error => HamiltonJacobiError::States(error),
+        })?;
         match report.verdict() {
             Verdict::Yes if report.factor != 0.0 => {}
             // Or the tolerance leaves no digit of c.
@@ -184,7 +187,7 @@ where
                     }
                 }
             })
-        });
+        })?;
         match failure.into_inner() {
             Some(error) => Err(ImplicitEquation::Step.at(k)(error)),
             None => Ok(integral),
@@ -313,7 +316,7 @@ where
         state: &State<S, N>,
     ) -> Result<(State<S, N>, PhaseMatrix<S, N>), HamiltonJacobiError> {
         let (step, linear) =
-            at_segment(&self.by, k, |by| by.linearized_step(state)).map_err(ImplicitEquation::Step.at(k))?;
+            at_segment(&self.by, k, |by| by.linearized_step(state))?.map_err(ImplicitEquation::Step.at(k))?;
         match ConformalStep::held_against(self.factor(), &[linear.a], None) {
             Some(report) if !report.is_conformal() => {
                 Err(HamiltonJacobiError::NotConformal { step: Some(k), report })

@@ -4,6 +4,7 @@ use core::fmt;
 
 use crate::step::StepError;
 use crate::theory::rayleigh::{ConformalStep, ConformalStepError};
+use crate::theory::samples::{STOPPED, Stopped};
 
 /// Why a Hamilton–Jacobi object could not be evaluated.
 #[derive(Clone, Copy, PartialEq)]
@@ -65,6 +66,14 @@ pub enum HamiltonJacobiError {
         /// The last correction of the label.
         distance: f64,
     },
+    /// The caller has ended the check ([`stopped_by`](crate::Discretised::stopped_by)).
+    Stopped,
+}
+
+impl From<Stopped> for HamiltonJacobiError {
+    fn from(Stopped: Stopped) -> Self {
+        Self::Stopped
+    }
 }
 
 /// An implicit equation of the theory.
@@ -133,6 +142,7 @@ impl fmt::Display for HamiltonJacobiError {
             Self::FamilyLength { needed, found } => {
                 write!(f, "{found} members of the family given, {needed} needed: one for each k")
             }
+            Self::Stopped => f.write_str(STOPPED),
             Self::States(error) => error.fmt(f),
             Self::NotConformal { step: Some(k), report } => {
                 let ConformalStep { factor, defect, .. } = report;

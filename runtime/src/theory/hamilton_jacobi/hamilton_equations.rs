@@ -103,13 +103,18 @@ where
     ///
     /// They are identities of a segment, so that the configurations need not solve the discrete
     /// Euler–Lagrange equations.
-    #[must_use]
-    pub fn hamilton_equations(&self, configurations: &[SVector<S, N>]) -> HamiltonEquationsReport<N> {
+    ///
+    /// # Errors
+    /// [`HamiltonJacobiError::Stopped`].
+    pub fn hamilton_equations(
+        &self,
+        configurations: &[SVector<S, N>],
+    ) -> Result<HamiltonEquationsReport<N>, HamiltonJacobiError> {
         let mut equations = Equations::new(self.relative);
         for (step, pair) in configurations.windows(2).enumerate() {
-            self.at_step(step, |theory| theory.equations_at(&mut equations, step, &pair[0], &pair[1]));
+            self.at_step(step, |theory| theory.equations_at(&mut equations, step, &pair[0], &pair[1]))?;
         }
-        equations.report(self.relative, false)
+        Ok(equations.report(self.relative, false))
     }
 
     /// [`hamilton_equations`](Self::hamilton_equations) in the paper's Rayleigh form, with the signs as
@@ -125,8 +130,13 @@ where
     ///
     /// The momenta and H_d^± are those of the whole system: a general force beside R makes even the corrected
     /// forms fail.
-    #[must_use]
-    pub fn hamilton_equations_rayleigh(&self, configurations: &[SVector<S, N>]) -> HamiltonEquationsReport<N>
+    ///
+    /// # Errors
+    /// [`HamiltonJacobiError::Stopped`].
+    pub fn hamilton_equations_rayleigh(
+        &self,
+        configurations: &[SVector<S, N>],
+    ) -> Result<HamiltonEquationsReport<N>, HamiltonJacobiError>
     where
         L: DiscreteRayleigh<R, N>,
     {
@@ -134,9 +144,9 @@ where
         for (step, pair) in configurations.windows(2).enumerate() {
             self.at_step(step, |theory| {
                 theory.equations_rayleigh_at(&mut equations, step, &pair[0], &pair[1])
-            });
+            })?;
         }
-        equations.report(self.relative, true)
+        Ok(equations.report(self.relative, true))
     }
 
     fn equations_at(

@@ -48,7 +48,7 @@ where
     pub fn discrete_action(&self, configurations: &[SVector<S, N>]) -> S {
         configurations.windows(2).enumerate().fold(S::zero(), |sum, (k, pair)| {
             sum + self
-                .at_step(k, |theory| theory.by.system.discrete_lagrangian(&pair[0], &pair[1], self.by.h))
+                .in_step(k, |theory| theory.by.system.discrete_lagrangian(&pair[0], &pair[1], self.by.h))
         })
     }
 

@@ -152,6 +152,10 @@ where
         for _ in 0..HALVINGS {
             width *= S::constant(0.5);
             let next = self.difference(family, lambda, &path, width);
+            // Other errors are those of a spacing that is too wide.
+            if let Err(stopped @ HamiltonJacobiError::Stopped) = next {
+                return Err(stopped);
+            }
             if let (Ok(last), Ok(next)) = (last, next) {
                 let error = largest((next.value - last.value).iter().copied());
                 let found = Measured { error, ..next };

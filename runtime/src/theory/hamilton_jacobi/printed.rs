@@ -62,7 +62,7 @@ where
         let guess = self.mean_velocity(q0, q1);
         Ok(PairedFlow {
             minus: self.step(q0, &gamma.p0, Some(&guess))?,
-            plus: self.at_step(1, |theory| theory.step(q1, &gamma.p1, Some(&guess)))?,
+            plus: self.in_step(1, |theory| theory.step(q1, &gamma.p1, Some(&guess)))?,
         })
     }
 

@@ -77,11 +77,11 @@ where
         let mut report = Gathering::new(self.relative);
         for (j, pair) in configurations.windows(2).enumerate() {
             let s = [&family[j], &family[j + 1]];
-            self.at_step(j, |theory| theory.on_segment(&mut report, j, s, [&pair[0], &pair[1]]));
+            self.at_step(j, |theory| theory.on_segment(&mut report, j, s, [&pair[0], &pair[1]]))?;
         }
         for (j, q) in configurations.windows(3).enumerate() {
             let s = [&family[j], &family[j + 1], &family[j + 2]];
-            self.at_node(&mut report, j + 1, s, [&q[0], &q[1], &q[2]]);
+            self.at_node(&mut report, j + 1, s, [&q[0], &q[1], &q[2]])?;
         }
         Ok(report.report(self.relative))
     }
@@ -128,14 +128,15 @@ where
         j: usize,
         [s0, s1, s2]: [&F; 3],
         [q0, q1, q2]: [&SVector<S, N>; 3],
-    ) where
+    ) -> Result<(), HamiltonJacobiError>
+    where
         F: ScalarField<N, Scalar = S>,
     {
         let (before, f_plus) = self.at_step(j - 1, |theory| {
             (theory.legendre(q0, q1), theory.by.system.force_plus(q0, q1, self.by.h))
-        });
+        })?;
         let (after, f_minus) = self
-            .at_step(j, |theory| (theory.legendre(q1, q2), theory.by.system.force_minus(q1, q2, self.by.h)));
+            .in_step(j, |theory| (theory.legendre(q1, q2), theory.by.system.force_minus(q1, q2, self.by.h)));
         let (size_before, size) =
             (MomentumMagnitudes::of(&before, q0, q1), MomentumMagnitudes::of(&after, q1, q2));
         let node = size_before.p1 + size.p0;
@@ -145,13 +146,13 @@ where
         let of_s1 = section::magnitude(s1, q1);
         match (invert(&before.p0_by_q1), invert(&after.p0_by_q1)) {
             (Ok(by_p_before), Ok(by_p)) => match self
-                .at_step(j - 1, |theory| theory.paired_flow(s0, s1, q0, q1))
+                .in_step(j - 1, |theory| theory.paired_flow(s0, s1, q0, q1))
             {
                 Ok(flow) => {
                     let reach = by_p_before.abs() * (size_before.p0 + section::magnitude(s0, q0));
                     let terms = q1.abs() + flow.minus.q.abs();
                     report.flow_gamma_minus.vector(j, q1, &(flow.minus.q - q1), &terms, &(q1.abs() + reach));
-                    let there = self.at_step(j, |theory| theory.gamma(s1, s2, &flow.minus.q, &flow.plus.q));
+                    let there = self.in_step(j, |theory| theory.gamma(s1, s2, &flow.minus.q, &flow.plus.q));
                     let magnitude = size_before.p1
                         + section::magnitude(s1, &flow.minus.q)
                         + before.p1_by_q1.abs() * reach
@@ -175,13 +176,13 @@ where
         }
 
         let ends = q1.abs() + q2.abs();
-        match self.at_step(j, |theory| theory.lemma_definition_plus(s2, q1, q2)) {
+        match self.in_step(j, |theory| theory.lemma_definition_plus(s2, q1, q2)) {
             Ok(Definition { residual, magnitude }) => {
                 report.lemma_plus.vector(j, q1, &residual, &ends, &magnitude);
             }
             Err(error) => report.lemma_plus.failure(error.at_step(j)),
         }
-        match self.at_step(j, |theory| theory.lemma_definition_minus(s1, q1, q2)) {
+        match self.in_step(j, |theory| theory.lemma_definition_minus(s1, q1, q2)) {
             Ok(Definition { residual, magnitude }) => {
                 report.lemma_minus.vector(j, q1, &residual, &ends, &magnitude);
             }
@@ -189,12 +190,12 @@ where
         }
         let guess = self.mean_velocity(q1, q2);
         let forced = |x: &SVector<S, N>| {
-            self.at_step(j - 1, |theory| theory.by.system.del_residual(q0, q1, x, self.by.h))
+            self.in_step(j - 1, |theory| theory.by.system.del_residual(q0, q1, x, self.by.h))
         };
-        match self.at_step(j, |theory| theory.lemma_flow_plus(s2, q1, Some(&guess))) {
+        match self.in_step(j, |theory| theory.lemma_flow_plus(s2, q1, Some(&guess))) {
             Ok(x) => {
                 report.lemma_plus_forced.vector(j, q1, &forced(&x), &node, &node);
-                let unforced = self.at_step(j - 1, |theory| theory.unforced_residual(q0, q1, &x));
+                let unforced = self.in_step(j - 1, |theory| theory.unforced_residual(q0, q1, &x));
                 report.lemma_plus_unforced.vector(j, q1, &unforced, &node, &node);
             }
             Err(error) => {
@@ -202,11 +203,11 @@ where
                 report.lemma_plus_unforced.failure(error.at_step(j));
             }
         }
-        match self.at_step(j, |theory| theory.lemma_flow_minus(s1, q1, Some(&guess))) {
+        match self.in_step(j, |theory| theory.lemma_flow_minus(s1, q1, Some(&guess))) {
             Ok(x) => report.lemma_minus_forced.vector(j, q1, &forced(&x), &node, &node),
             Err(error) => report.lemma_minus_forced.failure(error.at_step(j)),
         }
-        let back = self.at_step(j, |theory| theory.backward_flow(s1, s2, q1, q2));
+        let back = self.in_step(j, |theory| theory.backward_flow(s1, s2, q1, q2));
         match (back, invert(&before.p1_by_q0)) {
             (Ok(x), Ok(by_p)) => {
                 let magnitude = q0.abs() + by_p.abs() * (size_before.p1 + of_s1 + size.p0);
@@ -217,6 +218,7 @@ where
                 report.backward_flow.failure(super::ImplicitEquation::Derivative.at(j)(cause));
             }
         }
+        Ok(())
     }
 
     /// D2 L_d(q0, q1) + D1 L_d(q1, q2), the second a step later.
@@ -227,7 +229,7 @@ where
         q2: &SVector<S, N>,
     ) -> SVector<S, N> {
         self.by.system.discrete_lagrangian_derivatives(q0, q1, self.by.h).d2
-            + self.at_step(1, |theory| theory.by.system.discrete_lagrangian_derivatives(q1, q2, self.by.h).d1)
+            + self.in_step(1, |theory| theory.by.system.discrete_lagrangian_derivatives(q1, q2, self.by.h).d1)
     }
 }
 

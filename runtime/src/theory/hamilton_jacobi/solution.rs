@@ -209,7 +209,9 @@ where
             return Err(HamiltonJacobiError::TooFewPoints { needed: 1, found: 0 });
         }
         for k in 0..family - 1 {
-            self.at_step(k, |theory| samples.iter().for_each(|q| check(theory, k, q)));
+            for q in samples {
+                self.at_step(k, |theory| check(theory, k, q))?;
+            }
         }
         Ok(())
     }

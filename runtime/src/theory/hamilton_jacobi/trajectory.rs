@@ -64,8 +64,8 @@ where
             let (before, f_plus, d2) = self.at_step(index, |theory| {
                 let l = theory.by.system.discrete_lagrangian_derivatives(q0, q1, self.by.h);
                 (theory.legendre(q0, q1), theory.by.system.force_plus(q0, q1, self.by.h), l.d2)
-            });
-            let (after, f_minus, d1) = self.at_step(k, |theory| {
+            })?;
+            let (after, f_minus, d1) = self.in_step(k, |theory| {
                 let l = theory.by.system.discrete_lagrangian_derivatives(q1, q2, self.by.h);
                 (theory.legendre(q1, q2), theory.by.system.force_minus(q1, q2, self.by.h), l.d1)
             });

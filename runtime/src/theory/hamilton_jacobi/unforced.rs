@@ -55,11 +55,11 @@ where
         let [mut right, mut derivative, mut unforced, mut forced] = [new(), new(), new(), new()];
         for (k, s) in family.windows(3).enumerate() {
             for q in samples {
-                let first = self.at_step(k, |theory| theory.right_characteristic(&s[1], q, None));
+                let first = self.at_step(k, |theory| theory.right_characteristic(&s[1], q, None))?;
                 let chain = first.and_then(|x| {
                     let guess = self.mean_velocity(q, &x);
                     let y =
-                        self.at_step(k + 1, |theory| theory.right_characteristic(&s[2], &x, Some(&guess)))?;
+                        self.in_step(k + 1, |theory| theory.right_characteristic(&s[2], &x, Some(&guess)))?;
                     Ok((x, y))
                 });
                 let (x, y) = match chain {
@@ -71,7 +71,7 @@ where
                         continue;
                     }
                 };
-                let (increment, before, l, unforced_here, forced_here) = self.at_step(k, |theory| {
+                let (increment, before, l, unforced_here, forced_here) = self.in_step(k, |theory| {
                     (
                         theory.action_increment(&s[0], &s[1], q, &x),
                         theory.legendre(q, &x),
@@ -80,7 +80,7 @@ where
                         theory.by.system.del_residual(q, &x, &y, self.by.h),
                     )
                 });
-                let after = self.at_step(k + 1, |theory| theory.legendre(&x, &y));
+                let after = self.in_step(k + 1, |theory| theory.legendre(&x, &y));
                 right.number(k, q, increment.value, increment.magnitude, increment.magnitude);
                 let (first, second) =
                     (MomentumMagnitudes::of(&before, q, &x), MomentumMagnitudes::of(&after, &x, &y));

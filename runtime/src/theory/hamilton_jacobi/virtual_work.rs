@@ -86,7 +86,7 @@ where
             let [from, to] = [characteristic.states[k].q, characteristic.states[k + 1].q];
             values.push(
                 values[k]
-                    + self.at_step(k, |theory| theory.by.system.discrete_lagrangian(&from, &to, self.by.h))
+                    + self.in_step(k, |theory| theory.by.system.discrete_lagrangian(&from, &to, self.by.h))
                     + *work,
             );
         }
@@ -123,7 +123,7 @@ where
     /// d(W_k ∘ c_k) = Q_kᵀ f_d⁻ + Q_{k+1}ᵀ f_d⁺, a covector on the labels.
     fn work_covector(&self, characteristic: &Characteristic<S, N>, k: usize) -> SVector<S, N> {
         let [from, to] = [&characteristic.states[k].q, &characteristic.states[k + 1].q];
-        let f = self.at_step(k, |theory| theory.by.system.discrete_force(from, to, self.by.h));
+        let f = self.in_step(k, |theory| theory.by.system.discrete_force(from, to, self.by.h));
         characteristic.frames[k].q.tr_mul(&f.minus) + characteristic.frames[k + 1].q.tr_mul(&f.plus)
     }
 }

@@ -7,7 +7,7 @@ use super::{Defect, Generator, Noether};
 use crate::numbers::Scalar;
 use crate::step::{Discrete, State, Step, StepError};
 use crate::system::VectorField;
-use crate::theory::{samples::at_segment, verdict::Finding};
+use crate::theory::{samples::at_time_of, verdict::Finding};
 
 /// The account of a momentum map along a trajectory: J_N − J_0 = Σ ξ(L_d) + Σ f_d(ξ). See
 /// [`Noether::balance`].
@@ -122,7 +122,7 @@ where
             let step = step?;
             let k = balance.steps as usize;
             let defect =
-                at_segment(&self.by, k, |by| by.system.defect(generator, &at.q, &step.state.q, by.h).0);
+                at_time_of(&self.by, k, |by| by.system.defect(generator, &at.q, &step.state.q, by.h).0);
             let next = momentum_map(&step.state);
             let off = (next - j - defect.total().widen()).abs();
             // A NaN must not hide behind a comparison.
@@ -155,7 +155,7 @@ where
         let q1 = &step.state.q;
         let (xi0, xi1) = (generator.vector(q0).abs(), generator.vector(q1).abs());
         let (size0, size1) = (q0.abs(), q1.abs());
-        let (at_q0, at_q1) = at_segment(&self.by, k, |by| {
+        let (at_q0, at_q1) = at_time_of(&self.by, k, |by| {
             if L::HAS_INTERIOR_POINTS {
                 // Of its derivatives the sums alone are exact, and cheap.
                 let of = by.system.legendre_derivatives(q0, q1, by.h);

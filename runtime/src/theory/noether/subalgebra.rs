@@ -9,7 +9,7 @@ use crate::numbers::Scalar;
 use crate::step::Discrete;
 use crate::theory::{
     samples::{
-        SampleError, Segment, Sizes, at_segment, at_several_times, different, require_informative,
+        SampleError, Segment, Sizes, Stopped, at_several_times, at_time_of, different, require_informative,
         require_step_size,
     },
     verdict::largest,
@@ -146,7 +146,8 @@ where
             .iter()
             .enumerate()
             .map(|(k, segment)| generators.iter().map(|xi| self.row(k, xi, segment)).collect())
-            .collect();
+            .collect::<Result<_, Stopped>>()
+            .map_err(SampleError::from)?;
         let points: Vec<SVector<L::Scalar, N>> =
             segments.iter().flat_map(|segment| [segment.q0, segment.q1]).collect();
         let fields = Fields::at(generators, &points);
@@ -189,20 +190,25 @@ where
         })
     }
 
-    fn row(&self, k: usize, xi: &Generator<L::Scalar, N>, segment: &Segment<L::Scalar, N>) -> Row {
-        let Terms { defect, size } = self.terms(k, xi, segment);
+    fn row(
+        &self,
+        k: usize,
+        xi: &Generator<L::Scalar, N>,
+        segment: &Segment<L::Scalar, N>,
+    ) -> Result<Row, Stopped> {
+        let Terms { defect, size } = self.terms(k, xi, segment)?;
         let mut contraction = Vec::new();
-        at_segment(&self.by, k, |by| {
+        at_time_of(&self.by, k, |by| {
             let mut component =
                 |value: L::Scalar, size: L::Scalar| contraction.push((value.widen(), size.widen()));
             by.system.force_contraction(xi, &segment.q0, &segment.q1, by.h, &mut component);
         });
-        Row {
+        Ok(Row {
             lagrangian: (defect.lagrangian, size.lagrangian),
             force: (defect.force, size.force),
             total: (defect.total(), size.total()),
             contraction,
-        }
+        })
     }
 }
 

@@ -92,23 +92,23 @@ where
         require_step_size(self.by.h)?;
         require_informative(segments, |segment| segment.moves() && moves_an_end(generator, segment))?;
         let segments = &at_several_times(&self.by, segments)[..];
-        let terms: Vec<Terms> =
-            segments.iter().enumerate().map(|(k, segment)| self.terms(k, generator, segment)).collect();
+        let terms = segments.iter().enumerate().map(|(k, segment)| self.terms(k, generator, segment));
+        let terms: Vec<Terms> = terms.collect::<Result<_, _>>()?;
         let sizes = |scale: fn(&Terms) -> f64| scales(&terms.iter().map(scale).collect::<Vec<_>>());
         let of_lagrangian = sizes(|terms| terms.size.lagrangian);
         let of_force = sizes(|terms| terms.size.force);
         let of_all = sizes(|terms| terms.size.total());
         let contribution =
             |value: &dyn Fn(usize) -> f64, scales: &[f64]| worst(segments, self.tolerance, scales, value);
-        let identity = |k: usize| {
-            let Segment { q0, q1 } = &segments[k];
+        let identity = |(k, Segment { q0, q1 }): (usize, &Segment<L::Scalar, N>)| {
             let jump = at_segment(&self.by, k, |by| {
                 let (before, after) =
                     (by.system.legendre_minus(q0, q1, by.h), by.system.legendre_plus(q0, q1, by.h));
                 after.p.dot(&generator.vector(q1)) - before.p.dot(&generator.vector(q0))
             });
-            jump.widen() - terms[k].defect.total()
+            jump.map(|jump| jump.widen() - terms[k].defect.total())
         };
+        let identities: Vec<f64> = segments.iter().enumerate().map(identity).collect::<Result<_, _>>()?;
         Ok(Symmetry {
             generator: generator.name().to_owned(),
             h: self.by.h.widen(),
@@ -118,7 +118,7 @@ where
             force: contribution(&|k| terms[k].defect.force, &of_force)?,
             interior: contribution(&|k| terms[k].defect.interior, &of_all)?,
             defect: contribution(&|k| terms[k].defect.total(), &of_all)?,
-            identity: contribution(&identity, &of_all)?,
+            identity: contribution(&|k| identities[k], &of_all)?,
             tolerance: self.tolerance,
         })
     }

@@ -2,7 +2,7 @@
 
 use crate::numbers::Scalar;
 use crate::step::{Discretised, Flow, PhaseMatrix, State, StepError};
-use crate::theory::samples::{Sizes, around, at_segment, different};
+use crate::theory::samples::{Sizes, Stopped, around, at_segment, different};
 
 /// The derivatives of a step at some states.
 pub(super) struct Asked<S, const N: usize> {
@@ -14,23 +14,52 @@ pub(super) struct Asked<S, const N: usize> {
     pub(super) moves: bool,
 }
 
+/// Why states are not asked.
+pub(super) enum Unasked {
+    /// The step of the state of this number, given, fails.
+    Step(usize, StepError),
+    /// The caller has ended the check.
+    Stopped,
+}
+
+impl From<Stopped> for Unasked {
+    fn from(Stopped: Stopped) -> Self {
+        Self::Stopped
+    }
+}
+
+/// The errors of a checker of steps from those of [`ask`].
+macro_rules! from_unasked {
+    ($error:ident) => {
+        impl From<Unasked> for $error {
+            fn from(unasked: Unasked) -> Self {
+                match unasked {
+                    Unasked::Step(sample, error) => Self::Step { sample, error },
+                    Unasked::Stopped => Self::Stopped,
+                }
+            }
+        }
+    };
+}
+pub(super) use from_unasked;
+
 /// Asks for the derivatives of the step at the `states`, the k-th k h after the time of the system, and at
 /// states [`around`] the first of them, each a step later still: with one state a view is asked at 2N + 1
 /// times.
 ///
 /// # Errors
-/// The number of the state given whose step fails, and why.
+/// [`Unasked`].
 pub(super) fn ask<L, M, const N: usize>(
     by: &Discretised<'_, L, M, N>,
     states: &[State<L::Scalar, N>],
-) -> Result<Asked<L::Scalar, N>, (usize, StepError)>
+) -> Result<Asked<L::Scalar, N>, Unasked>
 where
     L: Flow<M, N>,
 {
     let at = |k: usize, state: &State<L::Scalar, N>| at_segment(by, k, |by| by.linearized_step(state));
     let (mut derivatives, mut ends) = (Vec::new(), Vec::new());
     for (k, state) in states.iter().enumerate() {
-        let (step, linear) = at(k, state).map_err(|error| (k, error))?;
+        let (step, linear) = at(k, state)?.map_err(|error| Unasked::Step(k, error))?;
         derivatives.push(linear.a);
         ends.push(step.state);
     }
@@ -39,7 +68,7 @@ where
     let mut moves = states.iter().zip(&ends).any(|(state, end)| sizes.are_apart(state, end));
     for (k, state) in around(states, &sizes, [1.0, 1.0]).iter().enumerate() {
         // Beside the states given a system may end.
-        if let Ok((step, linear)) = at(states.len() + k, state)
+        if let Ok((step, linear)) = at(states.len() + k, state)?
             && is_finite(&linear.a)
         {
             derivatives.push(linear.a);

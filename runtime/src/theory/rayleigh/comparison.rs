@@ -7,10 +7,12 @@ use super::quadrature::{along_line, between};
 use super::residual::{keep_worse, keep_worse_gap, rounding_note};
 use super::{Integral, SegmentFinding};
 use crate::numbers::Scalar;
+use crate::step::stop::Stop;
 use crate::step::{Discrete, DiscreteForce, Discretised};
 use crate::theory::{
     samples::{
-        SampleError, Segment, Tolerance, at_segment, at_several_times, require_informative, require_step_size,
+        SampleError, Segment, Stopped, Tolerance, at_segment, at_several_times, at_time_of,
+        require_informative, require_step_size,
     },
     verdict::scales,
 };
@@ -92,6 +94,13 @@ where
         Self { ours: Discretised::new(system, h), theirs: Discretised::new(other, h), base: base.into() }
     }
 
+    /// Ends [`check`](Self::check) as soon as `stop` is asked to end:
+    /// [`Discretised::stopped_by`].
+    #[must_use]
+    pub fn stopped_by(self, stop: Stop<'a>) -> Self {
+        Self { ours: self.ours.stopped_by(stop), ..self }
+    }
+
     /// ψ(q) − ψ(a).
     pub fn psi(&self, q: &SVector<L::Scalar, N>) -> Integral {
         let Self { ours, theirs, base } = self;
@@ -112,9 +121,13 @@ where
     }
 
     /// `evaluate` of both systems at the start of the k-th segment.
-    fn at_segment<U>(&self, k: usize, evaluate: impl FnOnce(&Comparison<'_, L, R, M, T, N>) -> U) -> U {
+    fn at_segment<U>(
+        &self,
+        k: usize,
+        evaluate: impl FnOnce(&Comparison<'_, L, R, M, T, N>) -> U,
+    ) -> Result<U, Stopped> {
         at_segment(&self.ours, k, |ours| {
-            at_segment(&self.theirs, k, |theirs| {
+            at_time_of(&self.theirs, k, |theirs| {
                 evaluate(&Comparison { ours: *ours, theirs: *theirs, base: self.base })
             })
         })
@@ -143,10 +156,11 @@ where
             .iter()
             .enumerate()
             .map(|(k, segment)| {
-                self.at_segment(k, |both| both.momentum_sizes(&segment.q0, &segment.q1))
-                    + self.at_segment(k + 1, |both| both.momentum_sizes(&segment.q1, &third(k)))
+                let first = self.at_segment(k, |both| both.momentum_sizes(&segment.q0, &segment.q1))?;
+                let second = self.at_segment(k + 1, |both| both.momentum_sizes(&segment.q1, &third(k)))?;
+                Ok(first + second)
             })
-            .collect();
+            .collect::<Result<_, Stopped>>()?;
         let scales: [Vec<f64>; N] =
             core::array::from_fn(|i| scales(&sizes.iter().map(|size| size[i]).collect::<Vec<_>>()));
         let (mut equations, mut lagrangian, mut rayleigh) = (None, None, None);
@@ -156,8 +170,8 @@ where
             let (difference, [psi0, phi0, phi1, phi, chi]) = self.at_segment(index, |both| {
                 let parts = [both.psi(q0), both.phi0(q0), both.phi1(q1), both.phi(q0, q1), both.chi(q0, q1)];
                 (both.difference(q0, q1, &third(index)), parts)
-            });
-            let psi1 = self.at_segment(index + 1, |both| both.psi(q1));
+            })?;
+            let psi1 = self.at_segment(index + 1, |both| both.psi(q1))?;
             for (entry, scales) in difference.iter().zip(&scales) {
                 let (entry, scale) = (entry.widen(), scales[index]);
                 if !(entry.is_finite() && scale.is_finite()) {

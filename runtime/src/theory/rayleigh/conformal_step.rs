@@ -4,8 +4,9 @@ use core::fmt;
 
 use crate::numbers::Scalar;
 use crate::step::{Discretised, Flow, PhaseMatrix, State, StepError};
-use crate::theory::rayleigh::asked::ask;
+use crate::theory::rayleigh::asked::{Unasked, ask, from_unasked};
 use crate::theory::rayleigh::rayleigh_step::Entry;
+use crate::theory::samples::STOPPED;
 use crate::theory::verdict::{Finding, Tolerance, Verdict};
 
 /// Whether a step multiplies the symplectic form by a constant:
@@ -66,7 +67,11 @@ pub enum ConformalStepError {
         /// The sample, from 0.
         sample: usize,
     },
+    /// The caller has ended the check ([`stopped_by`](crate::Discretised::stopped_by)).
+    Stopped,
 }
+
+from_unasked!(ConformalStepError);
 
 /// AᵀΩA, with the size of the terms that each of its entries is a sum of.
 struct PulledBack<'a, S, const N: usize>(&'a PhaseMatrix<S, N>);
@@ -225,8 +230,7 @@ where
         &self,
         states: &[State<L::Scalar, N>],
     ) -> Result<ConformalStep, ConformalStepError> {
-        let asked =
-            ask(self, states).map_err(|(sample, error)| ConformalStepError::Step { sample, error })?;
+        let asked = ask(self, states)?;
         let (given, needed) = (asked.different, needed::<N>());
         if given < needed {
             return Err(ConformalStepError::TooFewSamples { given, needed });
@@ -279,6 +283,7 @@ impl fmt::Display for ConformalStepError {
             Self::AtRest => f.write_str(
                 "the step moves no state by more than its derivative resolves; take a longer step, or states that move",
             ),
+            Self::Stopped => f.write_str(STOPPED),
             Self::Step { sample, error } => write!(f, "the step of sample {sample}: {error}"),
             Self::NonFinite { sample } => write!(f, "the derivative of sample {sample} is not finite"),
         }

@@ -4,8 +4,8 @@ use nalgebra::SVector;
 
 use super::quadrature::between;
 use super::residual::{keep_worse_gap, rounding_note};
-use super::structure::structure_of;
 use super::{Integral, RayleighStructure, SegmentFinding};
+use crate::step::stop::Stop;
 use crate::step::{Discrete, Discretised};
 use crate::theory::{
     samples::{SampleError, Segment, Tolerance, at_segment, at_several_times},
@@ -63,6 +63,13 @@ where
         Self { by: Discretised::new(system, h), base }
     }
 
+    /// Ends [`check`](Self::check) as soon as `stop` is asked to end:
+    /// [`Discretised::stopped_by`].
+    #[must_use]
+    pub fn stopped_by(self, stop: Stop<'a>) -> Self {
+        Self { by: self.by.stopped_by(stop), ..self }
+    }
+
     /// R_d(q0, q1) along the straight line from the base.
     pub fn at(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
         along(&self.by, &self.base, &Segment { q0: *q0, q1: *q1 })
@@ -75,7 +82,7 @@ where
     /// # Errors
     /// [`SampleError`] if there is no segment, none that moves, or a force on a path is not finite.
     pub fn check(&self, segments: &[Segment<L::Scalar, N>]) -> Result<Recovery<N>, SampleError> {
-        let structure = structure_of(&self.by, segments)?;
+        let structure = self.by.rayleigh_structure(segments)?;
         let given = segments.len();
         let segments = &at_several_times(&self.by, segments)[..];
         let relative = Tolerance::rounding::<L::Scalar>();
@@ -83,7 +90,7 @@ where
         for (index, segment) in segments.iter().enumerate() {
             let (straight, edges) = at_segment(&self.by, index, |by| {
                 (along(by, &self.base, segment), along_edges(by, &self.base, segment))
-            });
+            })?;
             let gap = straight + edges * -1.0;
             keep_worse_gap(&mut path_dependence, gap, relative, index, segment.widen())?;
             quadrature_error = largest([quadrature_error, straight.error]);

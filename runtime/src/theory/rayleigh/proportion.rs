@@ -176,7 +176,8 @@ where
                     by.system.discrete_rayleigh_derivatives(q0, q1, by.h),
                     by.system.discrete_force(q0, q1, by.h),
                 )
-            });
+            })
+            .map_err(SampleError::from)?;
             let entries = l.d12.iter().chain(r.d12.iter()).chain(f.minus.iter()).chain(f.plus.iter());
             if !largest(entries.map(|entry| entry.widen())).is_finite() {
                 if is_given {

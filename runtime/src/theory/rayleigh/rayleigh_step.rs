@@ -6,7 +6,8 @@ use nalgebra::SMatrix;
 
 use crate::numbers::Scalar;
 use crate::step::{Discretised, Flow, PhaseMatrix, State, StepError, invert};
-use crate::theory::rayleigh::asked::ask;
+use crate::theory::rayleigh::asked::{Unasked, ask, from_unasked};
+use crate::theory::samples::STOPPED;
 use crate::theory::verdict::{Finding, Tolerance};
 
 /// Whether a step is a Rayleigh step: [`rayleigh_step`](crate::Discretised::rayleigh_step).
@@ -77,7 +78,11 @@ pub enum RayleighStepError {
         /// The sample, from 0.
         sample: usize,
     },
+    /// The caller has ended the check ([`stopped_by`](crate::Discretised::stopped_by)).
+    Stopped,
 }
+
+from_unasked!(RayleighStepError);
 
 /// The asymmetry of x yᵀ that is worst, of a sample.
 fn asymmetry<S: Scalar, const N: usize>(
@@ -174,7 +179,7 @@ where
     /// # Errors
     /// A [`RayleighStepError`](crate::rayleigh::RayleighStepError) that says which hypothesis fails.
     pub fn rayleigh_step(&self, states: &[State<L::Scalar, N>]) -> Result<RayleighStep, RayleighStepError> {
-        let asked = ask(self, states).map_err(|(sample, error)| RayleighStepError::Step { sample, error })?;
+        let asked = ask(self, states)?;
         if !states.is_empty() && !asked.moves {
             return Err(RayleighStepError::AtRest);
         }
@@ -209,6 +214,7 @@ impl fmt::Display for RayleighStepError {
             Self::AtRest => f.write_str(
                 "the step moves no state by more than its derivative resolves; take a longer step, or states that move",
             ),
+            Self::Stopped => f.write_str(STOPPED),
             Self::Step { sample, error } => write!(f, "the step of sample {sample}: {error}"),
             Self::NonFinite { sample } => write!(f, "the derivative of sample {sample} is not finite"),
             Self::Degenerate { sample } => write!(

@@ -4,9 +4,9 @@ use nalgebra::SVector;
 
 use super::quadrature::{along_edges, along_line};
 use super::residual::{keep_worse_gap, rounding_note};
-use super::structure::structure_of;
 use super::{Integral, RayleighStructure, SegmentFinding};
 use crate::numbers::Scalar;
+use crate::step::stop::Stop;
 use crate::step::{Discrete, Discretised};
 use crate::theory::{
     samples::{SampleError, Segment, Tolerance, at_segment, at_several_times},
@@ -64,6 +64,13 @@ where
         Self { by: Discretised::new(system, h), base: base.into() }
     }
 
+    /// Ends [`check`](Self::check) as soon as `stop` is asked to end:
+    /// [`Discretised::stopped_by`].
+    #[must_use]
+    pub fn stopped_by(self, stop: Stop<'a>) -> Self {
+        Self { by: self.by.stopped_by(stop), ..self }
+    }
+
     /// L_d⁺(q0, q1).
     pub fn modified_plus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
         self.lagrangian(q0, q1) + along_line(&self.base, q0, at_start(&self.by, q1))
@@ -91,7 +98,7 @@ where
     /// # Errors
     /// [`SampleError`] if there is no segment, none that moves, or a force on a path is not finite.
     pub fn check(&self, segments: &[Segment<L::Scalar, N>]) -> Result<ResplitReport<N>, SampleError> {
-        let structure = structure_of(&self.by, segments)?;
+        let structure = self.by.rayleigh_structure(segments)?;
         let segments = &at_several_times(&self.by, segments)[..];
         let relative = Tolerance::rounding::<L::Scalar>();
         let (mut plus, mut minus, mut quadrature_error) = (None, None, 0.0_f64);
@@ -102,7 +109,7 @@ where
                 let straight = (along_line(&self.base, q0, &at_start), along_line(&self.base, q1, &at_end));
                 let edges = (along_edges(&self.base, q0, &at_start), along_edges(&self.base, q1, &at_end));
                 (straight, edges)
-            });
+            })?;
             let gaps = (straight.0 + edges.0 * -1.0, straight.1 + edges.1 * -1.0);
             for (worst, gap) in [(&mut plus, gaps.0), (&mut minus, gaps.1)] {
                 keep_worse_gap(worst, gap, relative, index, segment.widen())?;

@@ -126,8 +126,10 @@ where
         let beside = around(segments, &Sizes::of(segments.iter().copied()), units);
         for (k, segment) in beside.iter().enumerate() {
             // Beside the segments given a system may end.
-            if let Err(error @ (RouthError::NotCyclic { .. } | RouthError::NotReducible { .. })) =
-                routh.check(segments.len() + k, segment)
+            if let Err(
+                error
+                @ (RouthError::NotCyclic { .. } | RouthError::NotReducible { .. } | RouthError::Stopped),
+            ) = routh.check(segments.len() + k, segment)
             {
                 return Err(error);
             }

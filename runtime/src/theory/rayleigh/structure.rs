@@ -81,56 +81,63 @@ pub fn structure<L, R, const N: usize>(
 where
     L: Discrete<R, N>,
 {
-    structure_of(&Discretised::<L, R, N>::new(system, h), segments)
+    Discretised::<L, R, N>::new(system, h).rayleigh_structure(segments)
 }
 
-/// [`structure`] of a discretised system.
-pub(super) fn structure_of<L, R, const N: usize>(
-    by: &Discretised<'_, L, R, N>,
-    segments: &[Segment<L::Scalar, N>],
-) -> Result<RayleighStructure<N>, SampleError>
+/// Rayleigh forces.
+impl<L, R, const N: usize> Discretised<'_, L, R, N>
 where
     L: Discrete<R, N>,
 {
-    require_step_size(by.h)?;
-    require_informative(segments, Segment::moves)?;
-    let segments = &at_several_times(by, segments)[..];
-    let hessians: Vec<_> = segments
-        .iter()
-        .enumerate()
-        .map(|(k, Segment { q0, q1 })| {
-            at_segment(by, k, |by| by.system.discrete_force_derivatives(q0, q1, by.h))
-        })
-        .collect();
-    // An asymmetry of derivatives that are not finite may still be 0.
-    for (index, f) in hessians.iter().enumerate() {
-        let entries = (0..2 * N).flat_map(|a| (0..2 * N).map(move |b| entry(f, a, b)));
-        if !largest(entries).is_finite() {
-            return Err(SampleError::NonFinite { index });
-        }
-    }
-    // Rows and columns 0..N belong to q0, N..2N to q1.
-    let condition = |rows: usize, columns: usize| {
-        let mut worst: Option<Condition<N>> = None;
-        for i in 0..N {
-            for j in 0..N {
-                let (a, b) = (rows * N + i, columns * N + j);
-                let candidate = compare(segments, &hessians, a, b)?;
-                if worst.is_none_or(|known| candidate.excess() > known.worst.excess()) {
-                    worst = Some(Condition { worst: candidate, entry: (i, j) });
-                }
+    /// Tests the three conditions for R_d to exist, on `segments`:
+    /// [`rayleigh::structure`](crate::rayleigh::structure()) of this system by this rule.
+    ///
+    /// # Errors
+    /// Those of [`rayleigh::structure`](crate::rayleigh::structure()); [`SampleError::Stopped`].
+    pub fn rayleigh_structure(
+        &self,
+        segments: &[Segment<L::Scalar, N>],
+    ) -> Result<RayleighStructure<N>, SampleError> {
+        require_step_size(self.h)?;
+        require_informative(segments, Segment::moves)?;
+        let segments = &at_several_times(self, segments)[..];
+        let hessians: Vec<_> = segments
+            .iter()
+            .enumerate()
+            .map(|(k, Segment { q0, q1 })| {
+                at_segment(self, k, |by| by.system.discrete_force_derivatives(q0, q1, by.h))
+            })
+            .collect::<Result<_, _>>()?;
+        // An asymmetry of derivatives that are not finite may still be 0.
+        for (index, f) in hessians.iter().enumerate() {
+            let entries = (0..2 * N).flat_map(|a| (0..2 * N).map(move |b| entry(f, a, b)));
+            if !largest(entries).is_finite() {
+                return Err(SampleError::NonFinite { index });
             }
         }
-        worst.ok_or(SampleError::TooFew { given: 0, needed: 1 })
-    };
-    Ok(RayleighStructure {
-        h: by.h.widen(),
-        samples: segments.len(),
-        minus: condition(0, 0)?,
-        plus: condition(1, 1)?,
-        mixed: condition(1, 0)?,
-        tolerance: Tolerance::rounding::<L::Scalar>(),
-    })
+        // Rows and columns 0..N belong to q0, N..2N to q1.
+        let condition = |rows: usize, columns: usize| {
+            let mut worst: Option<Condition<N>> = None;
+            for i in 0..N {
+                for j in 0..N {
+                    let (a, b) = (rows * N + i, columns * N + j);
+                    let candidate = compare(segments, &hessians, a, b)?;
+                    if worst.is_none_or(|known| candidate.excess() > known.worst.excess()) {
+                        worst = Some(Condition { worst: candidate, entry: (i, j) });
+                    }
+                }
+            }
+            worst.ok_or(SampleError::TooFew { given: 0, needed: 1 })
+        };
+        Ok(RayleighStructure {
+            h: self.h.widen(),
+            samples: segments.len(),
+            minus: condition(0, 0)?,
+            plus: condition(1, 1)?,
+            mixed: condition(1, 0)?,
+            tolerance: Tolerance::rounding::<L::Scalar>(),
+        })
+    }
 }
 
 /// Entry (a, b) of ∂(f⁻, −f⁺)/∂(q0, q1).

@@ -2,6 +2,11 @@
 
 use core::fmt;
 
+use super::Stopped;
+
+/// Says that the caller has ended a check.
+pub(crate) const STOPPED: &str = "the check was ended by its caller";
+
 /// Why the samples given cannot be judged.
 #[derive(Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
@@ -27,6 +32,14 @@ pub enum SampleError {
     OneTime,
     /// The step size is NaN, infinite, 0 or below the normal numbers.
     StepSize,
+    /// The caller has ended the check ([`stopped_by`](crate::Discretised::stopped_by)).
+    Stopped,
+}
+
+impl From<Stopped> for SampleError {
+    fn from(Stopped: Stopped) -> Self {
+        Self::Stopped
+    }
 }
 
 impl fmt::Display for SampleError {
@@ -46,6 +59,7 @@ impl fmt::Display for SampleError {
             Self::OneTime => f.write_str(
                 "this view takes the time, and one time says nothing of others; ask over a duration, as by `dissipation_over`",
             ),
+            Self::Stopped => f.write_str(STOPPED),
             Self::StepSize => f.write_str("the step size is not a normal number; give a finite h ≠ 0"),
             Self::NonFinite { index } => write!(
                 f,

@@ -98,7 +98,7 @@ fn the_frame_is_the_derivative_by_the_label() {
 fn without_force_the_section_stays_closed() {
     let system = Well { friction: 0.0, curl: 0.0 };
     let characteristic = carried(&system, Midpoint, LABEL);
-    let report = system.by(Midpoint, H).hamilton_jacobi().characteristics_report(&[characteristic]);
+    let report = system.by(Midpoint, H).hamilton_jacobi().characteristics_report(&[characteristic]).unwrap();
     assert!(report.closed.unwrap().holds() && report.balance.unwrap().holds(), "{report}");
 }
 
@@ -109,12 +109,14 @@ fn friction_opens_it_and_a_curl_more_so_and_the_balance_holds() {
     for (system, least) in [(&friction, 1e-3), (&curl, 0.1)] {
         let characteristic = carried(system, Midpoint, LABEL);
         assert!(largest_defect(&characteristic) > least, "{}", largest_defect(&characteristic));
-        let report = system.by(Midpoint, H).hamilton_jacobi().characteristics_report(&[characteristic]);
+        let report =
+            system.by(Midpoint, H).hamilton_jacobi().characteristics_report(&[characteristic]).unwrap();
         assert!(!report.closed.unwrap().holds() && report.balance.unwrap().holds(), "{report}");
     }
     // Positive control of the balance: frames of another system have none.
     let characteristic = carried(&curl, Midpoint, LABEL);
-    let report = friction.by(Midpoint, H).hamilton_jacobi().characteristics_report(&[characteristic]);
+    let report =
+        friction.by(Midpoint, H).hamilton_jacobi().characteristics_report(&[characteristic]).unwrap();
     assert!(!report.balance.unwrap().holds(), "{report}");
 }
 
@@ -146,7 +148,7 @@ fn with_one_degree_of_freedom_every_section_is_closed() {
     let theory = DAMPED.by(Midpoint, 0.25).hamilton_jacobi();
     let s0 = CompleteSolution::new(&DAMPED, 0.25, -0.4, 0.7).function(0);
     let characteristic = theory.carry(&s0, &vector![0.8], 200).unwrap();
-    let report = theory.characteristics_report(&[characteristic]);
+    let report = theory.characteristics_report(&[characteristic]).unwrap();
     assert_eq!(report.closed.unwrap().size, 0.0, "{report}");
 }
 
@@ -165,7 +167,7 @@ fn proportional_friction_on_an_uncoupled_well_keeps_it_closed() {
     }
     let characteristic = carried(&Uncoupled, Midpoint, LABEL);
     let theory = Uncoupled.by(Midpoint, H).hamilton_jacobi();
-    let report = theory.characteristics_report(&[characteristic]);
+    let report = theory.characteristics_report(&[characteristic]).unwrap();
     assert!(report.closed.unwrap().holds(), "{report}");
     let report = theory.check_sections(&[Start, Start], &[LABEL]).unwrap();
     assert!(report.closed_work.unwrap().holds() && !report.no_work.unwrap().holds(), "{report}");

@@ -250,7 +250,7 @@ fn caustics_are_reported_as_of_every_carried_section() {
             let apart = one.step as f64 + one.fraction - other.step as f64 - other.fraction;
             assert!(apart.abs() < 1e-9 && (one.q - other.q).amax() < 1e-9, "{one}; {other}");
         }
-        let report = pairs.characteristics_report(&[carried.characteristic]);
+        let report = pairs.characteristics_report(&[carried.characteristic]).unwrap();
         assert!(report.closed.unwrap().holds(), "{report}");
     }
     assert!(caustics > 3, "{caustics}");

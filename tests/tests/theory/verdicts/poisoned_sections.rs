@@ -217,8 +217,8 @@ fn reports_along_poisoned_configurations_have_no_equation_that_holds() {
     let theory = DAMPED.by(Midpoint, H).hamilton_jacobi();
     let clean = trajectory(&DAMPED, H, 0.4, 0.3, 5);
     let outcomes = |q: &[SVector<f64, 1>]| -> Vec<Outcome<1>> {
-        let hamilton = theory.hamilton_equations(q);
-        let rayleigh = theory.hamilton_equations_rayleigh(q);
+        let hamilton = theory.hamilton_equations(q).unwrap();
+        let rayleigh = theory.hamilton_equations_rayleigh(q).unwrap();
         let mut outcomes = Vec::new();
         for report in [hamilton, rayleigh] {
             for pair in [
@@ -274,7 +274,7 @@ fn reports_along_poisoned_configurations_have_no_equation_that_holds() {
     assert!(!holds(&report.right_equation) && !holds(&report.derivative) && !holds(&report.unforced));
     assert!(!holds(&report.forced));
     // No characteristic, no verdict: neither closed, nor free of caustics.
-    let report = theory.characteristics_report(&[]);
+    let report = theory.characteristics_report(&[]).unwrap();
     assert!(!holds(&report.closed) && !holds(&report.balance));
     assert!(!report.to_string().contains("no caustic"), "{report}");
     for part in 0..2 {

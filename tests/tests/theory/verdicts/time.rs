@@ -129,7 +129,7 @@ where
     let along = theory.along_trajectory(&q).unwrap();
     assert!(along.trajectory.unwrap().holds() && along.right_minus.corrected.unwrap().holds(), "{along}");
     assert!(along.example_minus.corrected.unwrap().holds() && !along.net_force.unwrap().holds(), "{along}");
-    let hamilton = theory.hamilton_equations(&q);
+    let hamilton = theory.hamilton_equations(&q).unwrap();
     assert!(hamilton.right_momentum.corrected.unwrap().holds(), "{hamilton}");
     assert!(hamilton.left_momentum.corrected.unwrap().holds(), "{hamilton}");
     assert!(hamilton.left_configuration.corrected.unwrap().holds(), "{hamilton}");
@@ -140,7 +140,7 @@ where
     for (carried, state) in carried.states.iter().zip(&states) {
         assert!((carried.q - state.q).amax() < 1e-12 && (carried.p - state.p).amax() < 1e-12);
     }
-    let report = theory.characteristics_report(&[carried]);
+    let report = theory.characteristics_report(&[carried]).unwrap();
     assert!(report.balance.unwrap().holds(), "{report}");
     let action: f64 = q
         .windows(2)

@@ -4,6 +4,8 @@ use core::fmt;
 
 use crate::step::StepError;
 use crate::system::Damping;
+use crate::theory::rayleigh::asked::{Unasked, from_unasked};
+use crate::theory::samples::STOPPED;
 
 /// Why a linear step has no modified system: which hypothesis of
 /// [`ModifiedLinearSystem`](crate::rayleigh::modified::ModifiedLinearSystem) fails.
@@ -64,7 +66,11 @@ pub enum ModifiedLinearSystemError {
     Degenerate,
     /// The eigenvalues of A, or its roots, were not found: its entries are of too different sizes.
     NotConverged,
+    /// The caller has ended the check ([`stopped_by`](crate::Discretised::stopped_by)).
+    Stopped,
 }
+
+from_unasked!(ModifiedLinearSystemError);
 
 impl fmt::Display for ModifiedLinearSystemError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -76,6 +82,7 @@ impl fmt::Display for ModifiedLinearSystemError {
             Self::AtRest => f.write_str(
                 "the step moves no state by more than its derivative resolves; take a longer step, or states that move",
             ),
+            Self::Stopped => f.write_str(STOPPED),
             Self::Step { sample, error } => write!(f, "the step of state {sample}: {error}"),
             Self::StepSize { h } => write!(f, "step size {h} is zero or not finite; give a finite h ≠ 0"),
             Self::NonFinite { sample } => write!(f, "the derivative at state {sample} is not finite"),

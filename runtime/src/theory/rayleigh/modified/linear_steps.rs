@@ -8,7 +8,7 @@ use super::scaled::{assembled, require_finite, rescaled, scales, widened};
 use crate::numbers::Scalar;
 use crate::step::{Discretised, Flow, PhaseMatrix, State};
 use crate::system::is_timed;
-use crate::theory::rayleigh::asked::ask;
+use crate::theory::rayleigh::asked::{Unasked, ask};
 use crate::theory::rayleigh::modified::{ModifiedLinearSystem, ModifiedLinearSystemError};
 use crate::theory::samples::at_segment;
 use crate::theory::verdict::Tolerance;
@@ -57,7 +57,7 @@ where
         states: &[State<L::Scalar, N>],
     ) -> Result<ModifiedLinearSystem<N>, ModifiedLinearSystemError> {
         let failed = |(sample, error)| ModifiedLinearSystemError::Step { sample, error };
-        let asked = ask(self, states).map_err(failed)?;
+        let asked = ask(self, states)?;
         let [a, others @ ..] = asked.derivatives.as_slice() else {
             return Err(ModifiedLinearSystemError::TooFewStates);
         };
@@ -100,9 +100,10 @@ where
         times: usize,
         s: &SVector<f64, N>,
     ) -> Result<(), ModifiedLinearSystemError> {
-        let at = |k: usize| {
-            let (step, linear) = at_segment(self, k, |by| by.linearized_step(state))
-                .map_err(|error| ModifiedLinearSystemError::Step { sample: 0, error })?;
+        let failed = |error| ModifiedLinearSystemError::Step { sample: 0, error };
+        let at = |k: usize| -> Result<_, ModifiedLinearSystemError> {
+            let taken = at_segment(self, k, |by| by.linearized_step(state)).map_err(Unasked::from)?;
+            let (step, linear) = taken.map_err(failed)?;
             let a = widened(&linear.a);
             require_finite(&a, 0)?;
             let (q, p) = (step.state.q.map(Scalar::widen), step.state.p.map(Scalar::widen));

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use crate::step::StepError;
+use crate::theory::samples::{STOPPED, Stopped};
 
 /// Why a coordinate cannot be left out, or a reduced step not be taken.
 #[derive(Clone, Copy, PartialEq)]
@@ -49,6 +50,14 @@ pub enum RouthError {
     NoAngle(StepError),
     /// The equation for the other coordinates has no solution.
     Step(StepError),
+    /// The caller has ended the check ([`stopped_by`](crate::Discretised::stopped_by)).
+    Stopped,
+}
+
+impl From<Stopped> for RouthError {
+    fn from(Stopped: Stopped) -> Self {
+        Self::Stopped
+    }
 }
 
 impl fmt::Display for RouthError {
@@ -74,6 +83,7 @@ impl fmt::Display for RouthError {
                  shape; friction on θ must be a multiple of its inertia, or absent"
             ),
             Self::NoAngle(error) => write!(f, "no θ1 − θ0 has this momentum: {error}"),
+            Self::Stopped => f.write_str(STOPPED),
             Self::Step(error) => write!(f, "the reduced step: {error}"),
         }
     }

@@ -29,10 +29,10 @@ where
                 [k.momenta.p0, k.momenta.p1].map(|p| p.map(Scalar::widen))
             })
         };
-        let now = momenta(0);
+        let now = momenta(0)?;
         let relative = Tolerance::rounding::<L::Scalar>();
         for steps in [1, 2, sample] {
-            for (now, later) in now.iter().zip(momenta(steps)) {
+            for (now, later) in now.iter().zip(momenta(steps)?) {
                 let tolerance = Tolerance { relative, scale: now.amax().max(later.amax()) };
                 let changes = |value: f64| !Finding::relative(value, tolerance, sample).vanishes();
                 if (later - now).iter().any(|value| changes(*value)) {
@@ -46,7 +46,9 @@ where
     /// Whether θ has a momentum on the segment, where the conditions hold.
     pub(super) fn check(&self, sample: usize, segment: &Segment<L::Scalar, N>) -> Result<bool, RouthError> {
         let theta = self.cyclic;
-        let k = self.by.system().legendre_derivatives(&segment.q0, &segment.q1, self.by.step_size());
+        let k = at_segment(&self.by, 0, |by| {
+            by.system().legendre_derivatives(&segment.q0, &segment.q1, by.step_size())
+        })?;
         for (momentum, by_q0, by_q1) in
             [(k.momenta.p0, k.p0_by_q0, k.p0_by_q1), (k.momenta.p1, k.p1_by_q0, k.p1_by_q1)]
         {
