@@ -9,7 +9,7 @@ use dalembert::system::Scalar;
 use multiversion::multiversion;
 use multiversion::target::match_target;
 
-use crate::member::{Failure, Record};
+use crate::member::{Failure, Record, caught};
 use crate::stepping::{NoEnd, Plan, Slot, Stepping, failed};
 
 /// As many members at a time as the machine has lanes for: [`Study::in_lanes`](crate::Study::in_lanes).
@@ -160,8 +160,8 @@ where
 }
 
 impl<M: Copy, S: Scalar> InLanes<M, S> {
-    /// W members at a time; the lane of one that is done is given to the next that waits. Where none waits it
-    /// runs on unseen.
+    /// W members at a time. Where one of those in the lanes panics, nobody says which: each then goes alone,
+    /// and W others that wait follow.
     fn advance_all<'s, L, V: 's, const N: usize, const W: usize>(
         &self,
         mut waiting: impl Iterator<Item = OnItsWay<'s, L, V, N>>,
@@ -172,8 +172,32 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         L: LanesBy<M, N, Scalar = S> + 's,
         M: MethodOf<L, N>,
     {
-        let mut lanes: [Option<OnItsWay<'s, L, V, N>>; W] = [const { None }; W];
-        lanes.iter_mut().for_each(|lane| *lane = waiting.next());
+        loop {
+            let mut lanes: [Option<OnItsWay<'s, L, V, N>>; W] = [const { None }; W];
+            lanes.iter_mut().for_each(|lane| *lane = waiting.next());
+            // A panic of `observe` comes again below, where it is not caught.
+            if let Ok(done) = caught(|| self.advance_lanes(&mut lanes, &mut waiting, observe, stop)) {
+                return done;
+            }
+            for member in lanes.iter_mut().flatten() {
+                *member.failure = failed(self.alone(member, observe, stop))?;
+            }
+        }
+    }
+
+    /// The members in `lanes`; the lane of one that is done is given to the next that waits. Where none waits
+    /// it runs on unseen.
+    fn advance_lanes<'s, L, V: 's, const N: usize, const W: usize>(
+        &self,
+        lanes: &mut [Option<OnItsWay<'s, L, V, N>>; W],
+        waiting: &mut impl Iterator<Item = OnItsWay<'s, L, V, N>>,
+        observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
+        stop: Stop<'_>,
+    ) -> ControlFlow<()>
+    where
+        L: LanesBy<M, N, Scalar = S> + 's,
+        M: MethodOf<L, N>,
+    {
         let Some(first) = &lanes[0] else { return ControlFlow::Continue(()) };
         let (mut systems, mut starts) = ([first.system; W], [first.start; W]);
         // Steps until the next record of each lane, where it has a member.
@@ -243,9 +267,10 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         let Plan { h, steps: all, every, .. } = self.plan;
         let OnItsWay { number, system, next: steps, .. } = *member;
         let time = if steps == 0 { 0.0 } else { h.widen() * steps as f64 };
-        member.seen += 1;
         let record = Record { number, system, steps, time, state };
-        if observe(member.value, &record).is_break() || steps == all {
+        let observed = observe(member.value, &record);
+        member.seen += 1;
+        if observed.is_break() || steps == all {
             return ControlFlow::Continue(None);
         }
         member.next = all.min(steps.saturating_add(every.unwrap_or(all).max(1)));

@@ -219,7 +219,8 @@ where
     M: Stepping<L, N>,
 {
     /// Calls `progress` from time to time, on the thread that asked for the result; `ControlFlow::Break`
-    /// cancels.
+    /// cancels. It is called between many members: what ends members on their way is
+    /// [`cancelled_by`](Self::cancelled_by).
     pub fn on_progress(mut self, progress: impl Fn(Progress) -> ControlFlow<()> + Sync + 'f) -> Self {
         self.progress = Some(Box::new(progress));
         self
