@@ -6,7 +6,7 @@ import warnings
 
 import numpy as np
 import pytest
-from dalembert_scenes import HenonHeiles, Plane, Ring, StepError
+from dalembert_scenes import CartPole, HenonHeiles, Plane, Ring, StepError
 
 AT = {"h": 0.1, "steps": 5}
 
@@ -20,6 +20,20 @@ def test_masked_entries_are_no_numbers():
     k = np.ma.array([0.1, 0.2], mask=[False, True])
     with pytest.raises(ValueError, match="k: entries are masked"):
         Ring(0.0).ensemble(q=[0, 1], v=[0, 0], fields={"k": k}, **AT)
+
+
+@pytest.mark.parametrize("listed", [list, tuple, lambda rows: np.array(rows).tolist() and [[*row] for row in rows]])
+def test_masked_entries_in_lists_are_no_numbers(listed):
+    rows = [np.ma.array([0.0, 1.0], mask=[False, False]), np.ma.array([0.5, 1.0], mask=[False, False])]
+    same = Ring(0.0).ensemble(q=np.array(rows), v=[0, 0], **AT).q
+    assert np.array_equal(Ring(0.0).ensemble(q=listed(rows), v=[0, 0], **AT).q, same)
+    rows[1].mask = [False, True]
+    with pytest.raises(ValueError, match="q: entries are masked; fill them"):
+        Ring(0.0).ensemble(q=listed(rows), v=[0, 0], **AT)
+    with pytest.raises(ValueError, match="q: entries are masked"):
+        Ring(0.0).run(q=[0.0, np.ma.masked], v=[0, 0], **AT)
+    with pytest.raises(ValueError, match="k: entries are masked"):
+        Ring(0.0).ensemble(q=[0, 1], v=[0, 0], fields={"k": [0.1, np.ma.masked]}, **AT)
 
 
 @pytest.mark.parametrize("dtype", [np.int64, np.uint64])
@@ -50,7 +64,7 @@ def equal(left, right):
     return left == right
 
 
-def test_results_are_pickled():
+def test_results_are_pickled(tmp_path):
     star, plane = HenonHeiles(), Plane([1.0, 0.0])
     q, v = np.array([[0.1, 0.0], [np.nan, 0.0], [0.0, 40.0]]), np.array([[0.3, 0.1], [0.0, 0.0], [0.0, 40.0]])
     with warnings.catch_warnings():
@@ -61,6 +75,11 @@ def test_results_are_pickled():
             star.run(tolerance=1e-6, until=100.0, every=10**9, q=[0.0, -0.25], v=[0.42, 0.0]),
             star.ensemble(h=0.5, steps=200, q=q, v=v, rule="trapezoidal"),
             star.ensemble(h=0.5, steps=20, every=5, q=q[:1], v=v[:1], events=[plane]),
+            Ring(0.01).linearization(h=0.1, q=[0, 1], v=[0.1, 0]),
+            CartPole(1.0, 0.1, 0.5, [0.1, 0.1]).linearization(h=0.1, q=[0, 0.1], v=[0.1, 0], u=[0.2]),
+            *star.symmetries(h=0.1, low=[-1, -1], high=[1, 1], reach=[0.1, 0.1]),
+            star.energy_ledger(h=0.1, steps=20, q=q[0], v=v[0]),
+            star.ensemble(h=0.5, steps=20, q=q, v=v, folder=tmp_path),
         ]
     assert results[2].breach is not None and isinstance(results[3].failures[2], StepError)
     for result in results:
@@ -68,6 +87,7 @@ def test_results_are_pickled():
         assert repr(again) == repr(result) and equal(result, again)
     # Control: others are not equal.
     assert not equal(results[0], results[1]) and not equal(results[3], results[4])
+    assert not equal(results[5], results[6]) and not equal(results[7], results[8])
 
 
 def test_an_error_of_a_file_has_its_number(tmp_path):

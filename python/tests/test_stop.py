@@ -16,6 +16,8 @@ from dalembert_scenes import HenonHeiles, Ring
 STAR = "HenonHeiles()"
 AT = "q=[0.1, 0.0], v=[0.3, 0.1]"
 MEMBERS = "q=np.full((3, 2), 0.1), v=[0.3, 0.1]"
+BOX = "low=[-1, -1], high=[1, 1], reach=[0.1, 0.1]"
+GENERATORS = "{str(k): (np.eye(2), [k, 1.0]) for k in range(200)}"
 PLANE = "events=[Plane([1.0, 0.0])]"
 
 # As long as a day, by the machine of today.
@@ -28,6 +30,7 @@ LONG = {
     # The choice alone takes half a second.
     "choice for a tolerance": f"Ring(0.0).run(tolerance=1e-5, until=1e7, every={FOR_EVER}, q=[0.0, 1.0], v=[0.1, 0.0])",
     "ledger": f"{STAR}.energy_ledger(h=0.1, steps={FOR_EVER}, {AT})",
+    "symmetries": f"{STAR}.symmetries(h=0.1, {BOX}, samples=2 * 10**6, generators={GENERATORS})",
     "members": f"{STAR}.ensemble(h=0.1, steps={FOR_EVER}, {MEMBERS})",
     "members by Gauss": f"{STAR}.ensemble(h=0.1, steps={FOR_EVER}, rule='gauss_4', {MEMBERS})",
     "members to a tolerance": f"{STAR}.ensemble(tolerance=1e-11, until=1e6, {MEMBERS})",
@@ -36,22 +39,24 @@ LONG = {
 }
 
 
+PROGRAM = (
+    "import signal\n"
+    "import numpy as np\n"
+    "from dalembert_scenes import HenonHeiles, Plane, Ring\n"
+    # A shell starts what runs in the background with Ctrl-C switched off.
+    "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+    "print('begun', flush=True)\n"
+    "try:\n"
+    "    {}\n"
+    "except KeyboardInterrupt:\n"
+    "    print('interrupted', flush=True)\n"
+)
+
+
 @pytest.mark.skipif(os.name != "posix", reason="signals")
 def test_ctrl_c_ends_every_call():
-    program = (
-        "import signal\n"
-        "import numpy as np\n"
-        "from dalembert_scenes import HenonHeiles, Plane, Ring\n"
-        # A shell starts what runs in the background with Ctrl-C switched off.
-        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
-        "print('begun', flush=True)\n"
-        "try:\n"
-        "    {}\n"
-        "except KeyboardInterrupt:\n"
-        "    print('interrupted', flush=True)\n"
-    )
     for name, call in LONG.items():
-        with subprocess.Popen([sys.executable, "-c", program.format(call)], stdout=subprocess.PIPE, text=True) as run:
+        with subprocess.Popen([sys.executable, "-c", PROGRAM.format(call)], stdout=subprocess.PIPE, text=True) as run:
             too_long = threading.Timer(20, run.kill)
             too_long.start()
             assert run.stdout.readline() == "begun\n", name

@@ -4,7 +4,7 @@ use dalembert_c::{Field, Number};
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyFloat, PyInt, PySequence, PyString};
 
 /// The array of `float64` that is given, whatever its shape.
 ///
@@ -36,10 +36,19 @@ pub fn array<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<PyReadonlyA
     Ok(array.cast_into::<PyArrayDyn<f64>>()?.try_readonly()?)
 }
 
-/// Fails where entries of a masked array are masked: as plain numbers they would count.
+/// Fails where entries are masked, of a masked array or of one in a list: as plain numbers they would count.
 fn require_unmasked(name: &str, given: &Bound<'_, PyAny>) -> PyResult<()> {
-    if given.getattr_opt("mask")?.is_none() {
+    if given.is_instance_of::<PyFloat>() || given.is_instance_of::<PyInt>() {
         return Ok(());
+    }
+    if given.getattr_opt("mask")?.is_none() {
+        // Of an array without a mask no entry has one. A text is a sequence of texts.
+        return match given.cast::<PySequence>() {
+            Ok(sequence) if !given.is_instance_of::<PyString>() => {
+                sequence.try_iter()?.try_for_each(|entry| require_unmasked(name, &entry?))
+            }
+            _ => Ok(()),
+        };
     }
     let is_masked = given.py().import("numpy")?.getattr("ma")?.call_method1("is_masked", (given,))?;
     if is_masked.is_truthy()? {

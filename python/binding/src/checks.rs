@@ -145,20 +145,18 @@ where
         watch: &Watch<'_>,
     ) -> Result<Vec<Symmetry>, Refusal> {
         let system = S::view(fields, given.inputs, given.time);
-        let noether = system.by(self.0, h).noether();
+        let is_called_off = || watch.is_called_off();
+        let noether = system.by(self.0, h).stopped_by(Stop::when(&is_called_off)).noether();
         let vector = SVector::<f64, N>::from_column_slice;
         let Region { low, high, reach, samples } = *region;
         let segments = segments(vector(low), vector(high), vector(reach), samples);
         let judged = |Affine { name, linear, constant }: &Affine| {
-            if watch.is_called_off() {
-                return Err(Refusal::CalledOff);
-            }
             let generator = Generator::affine(
                 name.clone(),
                 SMatrix::<f64, N, N>::from_row_slice(linear),
                 vector(constant),
             );
-            let found = noether.symmetry(&generator, &segments).map_err(Refusal::Samples)?;
+            let found = noether.symmetry(&generator, &segments)?;
             let pair = |finding: &Contribution<N>| [finding.value, finding.tolerance];
             Ok(Symmetry {
                 generator: found.generator.clone(),

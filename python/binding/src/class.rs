@@ -9,15 +9,17 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::arguments::{self, array, entries, number, rows, vector};
+use crate::arrays::to_array;
 use crate::checks::{Affine, Region};
 use crate::ensemble;
 use crate::error::{of_events, of_memory, of_refusal, of_step, warn};
+use crate::linearization::Linearization;
 use crate::model::{Kind, Model, MotionGiven, Run as Asked, Start, Stepping};
 use crate::motion;
 use crate::offer::ErrorAsked;
 use crate::record::Stop;
 use crate::reports::{EnergyLedger, Symmetry};
-use crate::results::{Linearization, Run, partial, to_array};
+use crate::results::{Run, partial};
 use crate::watch::{Watch, watched};
 use crate::watching;
 

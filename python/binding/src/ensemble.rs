@@ -17,13 +17,14 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyModule};
 
 use crate::arguments::{self, array, entries_of_members, of_shape};
+use crate::arrays::to_array;
 use crate::class::time;
+use crate::crossings::Crossings;
 use crate::error::{of_member, of_memory, of_refusal};
 use crate::events::Event;
 use crate::many::{Asked, Control, FieldOfMembers, FoundOfMembers, Kept, NoResult, Rows, Written};
 use crate::model::{Kind, Model, Stepping};
 use crate::pickled::{Reduced, reduced};
-use crate::results::{Crossings, to_array};
 use crate::watch::PATIENCE;
 use crate::{pool, watched};
 
@@ -93,6 +94,22 @@ pub struct Parts {
 
 #[pymethods]
 impl Parts {
+    #[staticmethod]
+    fn _restored(
+        written: u64,
+        found: u64,
+        failed: u64,
+        failed_before: u64,
+        spared: u64,
+        paths: Vec<PathBuf>,
+    ) -> Self {
+        Self { written, found, failed, failed_before, spared, paths }
+    }
+
+    fn __reduce__<'py>(this: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(this, &["written", "found", "failed", "failed_before", "spared", "paths"])
+    }
+
     fn __len__(&self) -> usize {
         self.paths.len()
     }

@@ -8,10 +8,10 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyModule, PyType};
 
+use crate::arrays::to_array;
 use crate::many::{Failed, WhyFailed};
 use crate::record::Failure;
 use crate::refusal::Refusal;
-use crate::results::to_array;
 
 /// The classes of exceptions of the module.
 struct Classes {

@@ -24,9 +24,11 @@ pub use dalembert_c::fields as parameters;
 pub use pyo3;
 
 mod arguments;
+mod arrays;
 #[doc(hidden)]
 pub mod checks;
 mod class;
+mod crossings;
 #[doc(hidden)]
 pub mod derivatives;
 mod ensemble;
@@ -34,6 +36,7 @@ mod error;
 #[doc(hidden)]
 pub mod events;
 #[doc(hidden)]
+mod linearization;
 pub mod many;
 #[doc(hidden)]
 pub mod model;

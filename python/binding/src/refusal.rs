@@ -40,6 +40,15 @@ pub enum Refusal {
     CalledOff,
 }
 
+impl From<SampleError> for Refusal {
+    fn from(error: SampleError) -> Self {
+        match error {
+            SampleError::Stopped => Self::CalledOff,
+            error => Self::Samples(error),
+        }
+    }
+}
+
 impl From<ToleranceError> for Refusal {
     fn from(error: ToleranceError) -> Self {
         match error {

@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyModule;
 
 use crate::checks::{Ledger, Symmetry as Found};
+use crate::pickled::{Reduced, reduced};
 
 /// What a generator does to L_d, to the force and to its momentum, over samples.
 #[pyclass(frozen, get_all)]
@@ -47,6 +48,38 @@ impl From<Found> for Symmetry {
 
 #[pymethods]
 impl Symmetry {
+    #[staticmethod]
+    #[allow(clippy::too_many_arguments, reason = "all attributes")]
+    fn _restored(
+        generator: String,
+        is_symmetry_of_lagrangian: bool,
+        force_does_work: bool,
+        is_conserved: bool,
+        is_consistent: bool,
+        lagrangian: (f64, f64),
+        force: (f64, f64),
+        defect: (f64, f64),
+        text: String,
+    ) -> Self {
+        Self {
+            generator,
+            is_symmetry_of_lagrangian,
+            force_does_work,
+            is_conserved,
+            is_consistent,
+            lagrangian,
+            force,
+            defect,
+            text,
+        }
+    }
+
+    fn __reduce__<'py>(this: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let verdicts = ["is_symmetry_of_lagrangian", "force_does_work", "is_conserved", "is_consistent"];
+        let findings = ["lagrangian", "force", "defect", "text"];
+        reduced(this, &[&["generator"], &verdicts[..], &findings[..]].concat())
+    }
+
     fn __repr__(&self) -> &str {
         &self.text
     }
@@ -75,6 +108,15 @@ impl From<Ledger> for EnergyLedger {
 
 #[pymethods]
 impl EnergyLedger {
+    #[staticmethod]
+    fn _restored(change: f64, dissipated: f64, work: f64, remainder: f64, largest_remainder: f64) -> Self {
+        Self { change, dissipated, work, remainder, largest_remainder }
+    }
+
+    fn __reduce__<'py>(this: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(this, &["change", "dissipated", "work", "remainder", "largest_remainder"])
+    }
+
     fn __repr__(&self) -> String {
         let Self { change, dissipated, work, remainder, largest_remainder } = self;
         format!(

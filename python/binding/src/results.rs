@@ -1,30 +1,16 @@
 //! Results: arrays, and objects that print.
 
 use dalembert::tolerance::Breach as BreachOf;
-use numpy::ndarray::{Array, IntoDimension};
-use numpy::{PyArray, PyArray1, PyArray2, PyArray3};
-use pyo3::exceptions::PyValueError;
+use numpy::{PyArray1, PyArray2, PyArray3};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyModule};
 
-use crate::events::Found;
-use crate::model::{Linearized, Ran};
+use crate::arrays::to_array;
+use crate::crossings::Crossings;
+use crate::linearization::Linearization;
+use crate::model::Ran;
 use crate::pickled::{Reduced, reduced};
 use crate::record::Record;
-
-/// An array of `float64` that takes over `numbers`: nothing is copied.
-///
-/// # Errors
-/// `ValueError` where the shape is not that of so many numbers.
-pub fn to_array<D: IntoDimension>(
-    py: Python<'_>,
-    numbers: Vec<f64>,
-    shape: D,
-) -> PyResult<Bound<'_, PyArray<f64, D::Dim>>> {
-    let array = Array::from_shape_vec(shape.into_dimension(), numbers)
-        .map_err(|error| PyValueError::new_err(error.to_string()))?;
-    Ok(PyArray::from_owned_array(py, array))
-}
 
 /// Where the error expected of a run has passed the one asked for.
 #[pyclass(frozen, get_all)]
@@ -89,66 +75,6 @@ pub struct Run {
     breach: Option<Py<Breach>>,
     /// The events of each function that was given.
     events: Vec<Py<Crossings>>,
-}
-
-/// When an event function vanished, and where the motion was: one row an event.
-#[pyclass(frozen, get_all)]
-pub struct Crossings {
-    /// The number of the member of each, shape (events,); None of a run.
-    member: Option<Py<PyArray1<i64>>>,
-    /// Times, shape (events,).
-    t: Py<PyArray1<f64>>,
-    /// Configurations, shape (events, n).
-    q: Py<PyArray2<f64>>,
-    /// Velocities, shape (events, n).
-    v: Py<PyArray2<f64>>,
-    /// Momenta, shape (events, n).
-    p: Py<PyArray2<f64>>,
-}
-
-impl Crossings {
-    /// Of one function, in the run of a system with `n` coordinates or in those of members.
-    ///
-    /// # Errors
-    /// Those of Python.
-    pub fn new(py: Python<'_>, found: Found, members: Option<Vec<i64>>, n: usize) -> PyResult<Self> {
-        let Found { t, q, v, p } = found;
-        let events = t.len();
-        let vectors = |numbers| to_array(py, numbers, [events, n]).map(Bound::unbind);
-        Ok(Self {
-            member: members.map(|members| PyArray1::from_vec(py, members).unbind()),
-            q: vectors(q)?,
-            v: vectors(v)?,
-            p: vectors(p)?,
-            t: to_array(py, t, [events])?.unbind(),
-        })
-    }
-}
-
-#[pymethods]
-impl Crossings {
-    #[staticmethod]
-    fn _restored(
-        member: Option<Py<PyArray1<i64>>>,
-        t: Py<PyArray1<f64>>,
-        q: Py<PyArray2<f64>>,
-        v: Py<PyArray2<f64>>,
-        p: Py<PyArray2<f64>>,
-    ) -> Self {
-        Self { member, t, q, v, p }
-    }
-
-    fn __reduce__<'py>(this: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(this, &["member", "t", "q", "v", "p"])
-    }
-
-    fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
-        self.t.bind(py).len()
-    }
-
-    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        Ok(format!("Crossings: {}", self.t.bind(py).len()?))
-    }
 }
 
 /// The arrays of a record.
@@ -296,54 +222,6 @@ impl Run {
         Ok(format!(
             "Run: {steps} steps of {h} by {rule}, {iterations} iterations, {records} records{expected}"
         ))
-    }
-}
-
-/// A step and its derivatives.
-#[pyclass(frozen, get_all)]
-pub struct Linearization {
-    /// Configuration at the end of the step, shape (n,).
-    q: Py<PyArray1<f64>>,
-    /// Momentum at the end of the step, shape (n,).
-    p: Py<PyArray1<f64>>,
-    /// A = ∂(q1, p1)/∂(q0, p0), shape (2n, 2n).
-    a: Py<PyArray2<f64>>,
-    /// B = ∂(q1, p1)/∂u, the input being held over the step, shape (2n, inputs); None where there is no input.
-    b: Option<Py<PyArray2<f64>>>,
-    /// ∂(q1, p1)/∂θ, shape (2n, parameters); None where the attribute lists none.
-    by_parameters: Option<Py<PyArray2<f64>>>,
-}
-
-impl Linearization {
-    /// Of a system with `n` coordinates, and so many inputs and parameters.
-    ///
-    /// # Errors
-    /// Those of Python.
-    pub fn new(py: Python<'_>, of: Linearized, n: usize, [inputs, parameters]: [usize; 2]) -> PyResult<Self> {
-        let Linearized { end: [q, p], a, b, by_parameters } = of;
-        let matrix =
-            |numbers: Vec<f64>, columns: usize| to_array(py, numbers, [2 * n, columns]).map(Bound::unbind);
-        Ok(Self {
-            q: to_array(py, q, [n])?.unbind(),
-            p: to_array(py, p, [n])?.unbind(),
-            a: matrix(a, 2 * n)?,
-            b: b.map(|b| matrix(b, inputs)).transpose()?,
-            by_parameters: by_parameters.map(|by| matrix(by, parameters)).transpose()?,
-        })
-    }
-}
-
-#[pymethods]
-impl Linearization {
-    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let mut shown = format!("Linearization\nA =\n{}", self.a.bind(py).str()?);
-        if let Some(b) = &self.b {
-            shown += &format!("\nB =\n{}", b.bind(py).str()?);
-        }
-        if let Some(by) = &self.by_parameters {
-            shown += &format!("\nby parameters =\n{}", by.bind(py).str()?);
-        }
-        Ok(shown)
     }
 }
 

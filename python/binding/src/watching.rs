@@ -8,8 +8,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyModule;
 
 use crate::arguments::vector;
+use crate::arrays::to_array;
 use crate::events::{Event, Function, MOST};
-use crate::results::to_array;
 
 /// A plane that a run crosses: q·a + v·b = value.
 ///
