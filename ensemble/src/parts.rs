@@ -36,15 +36,19 @@
 //! **A folder is of one study.** Its file `_study.parquet` says of which, as metadata: system, structure,
 //! method with step size and records, members of a part, version, and [`metadata`](Parts::metadata). The
 //! first call puts it down, and another study is refused, if it begins at the same moment too. It has the
-//! columns of the parts and no rows, so that readers of a whole folder may read it or leave it out.
+//! columns of the parts and no rows, so that readers of a whole folder may read it or leave it out. A call
+//! also looks at one part of other members, if there is one when it begins or another when it ends: another
+//! study with the same metadata does not go on beside it ([`made_within`](Parts::made_within)).
 //!
 //! **A part is of its members.** Its metadata hold the same, its range, and a digest of its members' starts,
-//! columns, and derivatives of L; of 64 members, evenly spread, also of the state after the first step. A
-//! call that finds a part makes its members anew, steps them no further, and compares. A field that stands in
-//! no column, and acts later, or in R or f of members between those 64 alone, is not seen: say it by
+//! columns, and derivatives of L; of 64 members, evenly spread, also of the state after the first step, and
+//! of the forces at 2 048 states in all, near and far
+//! ([`sampled_forces`](dalembert::system::sampled_forces)): a model that was edited does not find the parts
+//! of the one before. A call that finds a part makes its members anew, steps them no further, and compares. A
+//! field that stands in no column, in R or f of members between those 64 alone, is not seen: say it by
 //! [`identified_by`](Parts::identified_by). Nor is a closure of [`stop_when`](Study::stop_when): say by
 //! `metadata` what it waits for. Bits are compared: a machine whose sine rounds otherwise does not go on with
-//! the parts of another.
+//! the parts of another, nor beside them.
 //!
 //! **A part is what was written.** Its metadata hold a digest of all bytes of the file too, of 128 bits
 //! (XXH3). A part that is found is read and compared once; of a flipped bit, a cut file, or a part under the
@@ -75,6 +79,8 @@ use core::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use dalembert::nalgebra::SVector;
+use dalembert::system::{ActingForce, sampled_forces};
 use dalembert::{Lagrangian, State, StepError};
 
 use crate::member::Record;
@@ -96,6 +102,7 @@ pub struct Parts<'s, 'f, F, M, L: Lagrangian<N>, const N: usize> {
     columns: Vec<Column<'s, L>>,
     metadata: Vec<(String, String)>,
     own: Option<OwnDigest<'s>>,
+    known: Option<Range<u64>>,
 }
 
 /// A digest of a member that the caller makes, of its number.
@@ -133,7 +140,7 @@ impl fmt::Display for Written {
 impl<'f, F, M, L, const N: usize> Study<'f, F, M, L, N>
 where
     F: Fn(u64) -> Result<(L, State<L::Scalar, N>), StepError> + Sync,
-    L: Lagrangian<N> + Send,
+    L: ActingForce<N> + Send,
     M: Stepping<L, N>,
 {
     /// The results as files in `folder`, which is made where there is none.
@@ -145,6 +152,7 @@ where
             columns: Vec::new(),
             metadata: Vec::new(),
             own: None,
+            known: None,
         }
     }
 }
@@ -152,7 +160,7 @@ where
 impl<'s, F, M, L, const N: usize> Parts<'s, '_, F, M, L, N>
 where
     F: Fn(u64) -> Result<(L, State<L::Scalar, N>), StepError> + Sync,
-    L: Lagrangian<N> + Send,
+    L: ActingForce<N> + Send,
     M: Stepping<L, N>,
 {
     /// Part k holds the members from k × `members` on; 65 536 unless said, 0 counts as 1.
@@ -183,6 +191,13 @@ where
     /// columns and the first step do not: of fields, say, that act later or on few members.
     pub fn identified_by(mut self, digest: impl Fn(u64) -> u128 + Sync + 's) -> Self {
         self.own = Some(Box::new(digest));
+        self
+    }
+
+    /// The function that makes members knows no others than these, as where it has their starts in memory.
+    /// Parts of others that are in the folder are not compared then.
+    pub fn made_within(mut self, numbers: Range<u64>) -> Self {
+        self.known = Some(numbers);
         self
     }
 
@@ -243,10 +258,13 @@ where
     /// The digest of a member of `part` as it starts.
     fn start_of(&self, part: &Range<u64>, number: u64, start: &Start<L, N>) -> u128 {
         let others = |system: &L, state: &State<L::Scalar, N>| {
-            let columns = self.columns.iter().map(|(_, value)| value(system));
-            let is_sampled = starts::is_sampled(part, number);
-            let motion = if is_sampled { self.study.stepping.at_start(system, state) } else { Vec::new() };
-            columns.chain(motion).collect()
+            let mut numbers: Vec<f64> = self.columns.iter().map(|(_, value)| value(system)).collect();
+            if let Some(states) = starts::sampled(part, number) {
+                numbers.extend(self.study.stepping.at_start(system, state));
+                let v = state.velocity(system).unwrap_or_else(|_| SVector::zeros());
+                numbers.extend(sampled_forces(system, (&state.q, &v), number, states));
+            }
+            numbers
         };
         starts::of_member(start, others, self.own.as_ref().map(|own| own(number)))
     }

@@ -71,7 +71,7 @@ fn cut(number: u64) -> Result<(Cut, State<f64, 1>), StepError> {
 fn members_that_panic_in_lanes_fail_as_they_do_one_by_one() {
     macro_rules! compare {
         ($($method:expr),+) => {$(
-            for stride in [1, 30, 1000] {
+            for stride in [7, 1000] {
                 let study = || Ensemble::new(cut).by($method, 0.1).steps(100).every(stride);
                 let alone = study().ends(0..100).unwrap();
                 let failed = |ends: &[Result<_, Failure<f64, 1>>]| -> Vec<u64> {
@@ -103,4 +103,22 @@ fn an_observer_that_panics_is_heard() {
     assert!(alone.is_err() && lanes.is_err());
     // Control: without it all are counted, those that fail among them.
     assert_eq!(study().in_lanes().reduce(0..100, |_| (), |_, _| {}, 0, add).unwrap(), 100);
+}
+
+/// Their rows have the error, and no energy.
+#[cfg(feature = "parquet")]
+#[test]
+fn members_that_panic_have_rows_in_parts() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("panics");
+    let _ = std::fs::remove_dir_all(&folder);
+    let alone = || Ensemble::new(cut).by(Midpoint, 0.1).steps(20).every(10);
+    let written = alone().parts(&folder).members_per_part(50).write(0..100).unwrap();
+    assert_eq!((written.written, written.failed), (2, CUT.len() as u64));
+    let found = alone().parts(&folder).members_per_part(50).write(0..100).unwrap();
+    assert_eq!((found.found, found.failed_before), (2, CUT.len() as u64));
+    // In lanes they are other studies by name, of the same members.
+    std::fs::remove_dir_all(&folder).unwrap();
+    let written = alone().in_lanes().parts(&folder).members_per_part(50).write(0..100).unwrap();
+    assert_eq!(written.failed, CUT.len() as u64);
+    std::fs::remove_dir_all(&folder).unwrap();
 }

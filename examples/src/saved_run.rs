@@ -14,10 +14,8 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail, ensure};
 use dalembert::nalgebra::SVector;
-use dalembert::system::ActingForce;
+use dalembert::system::{ActingForce, sampled_forces};
 use dalembert::{Checkpoint, Discrete, Discretise, State, Trajectory};
-use rand::{RngExt as _, SeedableRng as _};
-use rand_chacha::ChaCha8Rng;
 
 use files::{Digest, Files, ROWS, Saved};
 
@@ -145,7 +143,9 @@ where
             Err(error) => digest.add(format!("{error:?}").as_bytes()),
         }
     }
-    add_forces(&mut digest, system, &start);
+    let around = start.velocity(system).unwrap_or_else(|_| SVector::zeros());
+    sampled_forces(system, (&start.q, &around), 6, SAMPLES)
+        .for_each(|entry| digest.add(&entry.to_bits().to_le_bytes()));
     format!(
         "{} = {system:?} by {}, h = {h:?}, from q = {:?}, p = {:?}; a row every {row} steps, a checkpoint every {rows_to_checkpoint} rows; \
          first steps and forces {digest}",
@@ -154,29 +154,4 @@ where
         start.q.as_slice(),
         start.p.as_slice(),
     )
-}
-
-/// Adds p, ∂L/∂q and f_L at random states and times of all sizes: an edited model differs in some.
-fn add_forces<L: ActingForce<N, Scalar = f64>, const N: usize>(
-    digest: &mut Digest,
-    system: &L,
-    start: &State<f64, N>,
-) {
-    let mut random = ChaCha8Rng::seed_from_u64(6);
-    let around = start.velocity(system).unwrap_or_else(|_| SVector::zeros());
-    for _ in 0..SAMPLES {
-        let mut near = |center: &SVector<f64, N>| {
-            let reach = 10.0_f64.powf(random.random_range(-3.0..3.0));
-            center.map(|entry| entry + reach * random.random_range(-1.0..1.0))
-        };
-        let (q, v) = (near(&start.q), near(&around));
-        let time = 10.0_f64.powf(random.random_range(-3.0..6.0));
-        let (l, force) =
-            system.later(time, |system| (system.lagrangian_gradient(&q, &v), system.acting_force(&q, &v)));
-        for entry in l.d1.iter().chain(&l.d2).chain(&force) {
-            // The sign of a NaN is that of the machine.
-            let entry = if entry.is_nan() { f64::NAN } else { *entry };
-            digest.add(&entry.to_bits().to_le_bytes());
-        }
-    }
 }

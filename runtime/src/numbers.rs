@@ -16,6 +16,7 @@ pub(crate) mod linear;
 pub(crate) mod members;
 pub(crate) mod nonlinear;
 mod precision;
+pub(crate) mod random;
 mod scalar;
 mod singular;
 pub(crate) mod slices;

@@ -27,6 +27,14 @@ impl Listing {
         self.0.contains(part)
     }
 
+    /// A part of members that are not among the `planned` ones, and that was not there `before`.
+    pub(super) fn other(&self, planned: &[Range<u64>], before: Option<&Self>) -> Option<&Range<u64>> {
+        let (first, last) = (planned.first()?, planned.last()?);
+        let is_other = |there: &Range<u64>| there.end <= first.start || last.end <= there.start;
+        let is_new = |there: &Range<u64>| before.is_none_or(|before| !before.has(there));
+        self.0.iter().filter(|there| is_other(there) && is_new(there)).min_by_key(|there| there.start)
+    }
+
     /// A part that is there and holds some of the members of `planned` parts, and others.
     pub(super) fn across(&self, planned: &[Range<u64>]) -> Option<&Range<u64>> {
         let (Some(first), Some(last)) = (planned.first(), planned.last()) else { return None };

@@ -4,6 +4,8 @@ use dalembert::nalgebra::SVector;
 use dalembert::system::Scalar;
 use dalembert::{Lagrangian, State};
 
+use crate::member::caught;
+
 /// A column's name, and its value of a system.
 pub(super) type Column<'s, L> = (String, Box<dyn Fn(&L) -> f64 + Sync + 's>);
 
@@ -34,7 +36,11 @@ impl<const N: usize> Row<N> {
             fields: columns.iter().map(|(_, value)| value(system)).collect(),
             time: Some(time),
             state: Some([widened(&state.q), widened(&state.p)]),
-            energy: system.later(Scalar::constant(time), energy).ok().map(Scalar::widen),
+            // Of a member that panics there is none.
+            energy: caught(|| system.later(Scalar::constant(time), energy))
+                .ok()
+                .and_then(Result::ok)
+                .map(Scalar::widen),
             error: None,
         }
     }

@@ -6,12 +6,13 @@ use std::panic::resume_unwind;
 use std::path::Path;
 use std::thread::{self, ScopedJoinHandle};
 
+use dalembert::system::ActingForce;
 use dalembert::{Lagrangian, State, StepError};
 use rayon::prelude::*;
 
 use super::draft::{self, Draft, Put};
 use super::error::PartsError;
-use super::found::Found;
+use super::found::{self, Found};
 use super::identity;
 use super::listing::{Listing, have_common};
 use super::metadata::Entries;
@@ -24,7 +25,7 @@ use crate::study::NO_START;
 impl<F, M, L, const N: usize> Parts<'_, '_, F, M, L, N>
 where
     F: Fn(u64) -> Result<(L, State<L::Scalar, N>), StepError> + Sync,
-    L: Lagrangian<N> + Send,
+    L: ActingForce<N> + Send,
     M: Stepping<L, N>,
 {
     /// Computes the parts of the members `numbers` that are not there, and writes them.
@@ -44,10 +45,11 @@ where
         fs::create_dir_all(&self.folder).map_err(at)?;
         identity::put_down(&self.folder, &self.empty(), &described)?;
         let planned: Vec<Range<u64>> = self.planned(numbers.clone()).collect();
-        let there = Listing::of(&self.folder)?;
-        self.require_apart(&there, &planned)?;
+        let before = Listing::of(&self.folder)?;
+        self.require_apart(&before, &planned)?;
         // There may be little room.
         self.sweep(&planned)?;
+        self.require_one_study(&described, before.other(&planned, None))?;
 
         let members = numbers.end.saturating_sub(numbers.start);
         let mut call = Call {
@@ -57,13 +59,32 @@ where
             written: Written::default(),
             placed: Vec::new(),
         };
-        let (there, missing): (Vec<_>, Vec<_>) = planned.iter().cloned().partition(|part| there.has(part));
+        let (there, missing): (Vec<_>, Vec<_>) = planned.iter().cloned().partition(|part| before.has(part));
         there.iter().try_for_each(|part| call.find(part))?;
         let computed = call.compute(missing);
         let Call { mut written, placed, .. } = call;
         computed?;
         written.spared = self.settled(&planned, &placed)?;
+        // Or of another that has begun meanwhile.
+        let there = Listing::of(&self.folder)?;
+        self.require_one_study(&described, there.other(&planned, Some(&before)))?;
         Ok(written)
+    }
+
+    /// Fails where a part of other members is not of this study: they are made here, if they can be, and
+    /// compared as those of a part that is found.
+    fn require_one_study(&self, described: &Entries, other: Option<&Range<u64>>) -> Result<(), PartsError> {
+        let is_known = |part: &&Range<u64>| {
+            self.known.as_ref().is_none_or(|known| known.start <= part.start && part.end <= known.end)
+        };
+        let Some(other) = other.filter(is_known) else { return Ok(()) };
+        let Some(starts) = self.starts(other, false) else { return Ok(()) };
+        let path = names::path(&self.folder, other);
+        match found::open(&path, &metadata::of_part(described, other, starts)) {
+            Err(error @ PartsError::AnotherStudy { .. }) => Err(error),
+            // What else is wrong with it is said by the call that it is of.
+            _ => Ok(()),
+        }
     }
 
     fn require_apart(&self, there: &Listing, planned: &[Range<u64>]) -> Result<(), PartsError> {
@@ -99,11 +120,19 @@ where
         self.sweep(planned)
     }
 
-    /// The digest of all members of a part as they start, made anew; none where the call is cancelled.
-    fn starts(&self, part: &Range<u64>) -> Option<u128> {
+    /// The digest of all members of a part as they start, made anew; none where the call is cancelled, or
+    /// where it `is_own` not and the function that makes members knows none of them.
+    fn starts(&self, part: &Range<u64>, is_own: bool) -> Option<u128> {
         let start_of = |number: u64| {
-            let start = || self.study.start(number).unwrap_or(Err(NO_START));
-            (!self.study.is_flagged()).then(|| self.start_of(part, number, &start()))
+            if self.study.is_flagged() {
+                return None;
+            }
+            let start = match self.study.start(number) {
+                Ok(start) => start,
+                Err(_) if is_own => Err(NO_START),
+                Err(_) => return None,
+            };
+            Some(self.start_of(part, number, &start))
         };
         let all: Option<Vec<u128>> = part.clone().into_par_iter().map(start_of).collect();
         all.map(|all| starts::of_all(&all))
@@ -130,7 +159,7 @@ struct Writing<'w> {
 impl<F, M, L, const N: usize> Call<'_, '_, '_, F, M, L, N>
 where
     F: Fn(u64) -> Result<(L, State<L::Scalar, N>), StepError> + Sync,
-    L: Lagrangian<N> + Send,
+    L: ActingForce<N> + Send,
     M: Stepping<L, N>,
 {
     /// Looks at a part that is there.
@@ -139,7 +168,7 @@ where
             return Err(PartsError::Cancelled(self.progress));
         }
         let path = names::path(&self.parts.folder, part);
-        let starts = self.parts.starts(part).ok_or(PartsError::Cancelled(self.progress))?;
+        let starts = self.parts.starts(part, true).ok_or(PartsError::Cancelled(self.progress))?;
         let metadata = metadata::of_part(self.described, part, starts);
         let Found { failed, .. } = Found::at(&path, &metadata)?;
         self.count(part, failed);

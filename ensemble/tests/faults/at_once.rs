@@ -10,7 +10,7 @@ use std::time::Duration;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use crate::study::{Call, Files, OF_PART, PLAIN, ended, files, folder, sign, started};
+use crate::study::{Call, Files, OF_PART, PLAIN, ended, files, folder, folder_of, sign, started};
 use crate::trials::Trials;
 
 /// Starts processes that wait, and lets them go.
@@ -63,6 +63,36 @@ pub fn two_studies(tries: u32) -> Trials {
         Call { p: -0.5, steps: 9, ..PLAIN },
     ];
     one_of(tries, &others.map(|other| [PLAIN, other]))
+}
+
+/// Of members of their own, by equal metadata: of two studies one at least is refused, and both of the same
+/// end well. Control: files of both, of which a call over all says that they are of two.
+pub fn two_studies_apart(tries: u32) -> Trials {
+    let half = Call { members: 3 * OF_PART, ..PLAIN };
+    let rest = Call { from: 3 * OF_PART, ..PLAIN };
+    let others = [Call { p: -0.5, ..rest }, Call { r: 0.1, ..rest }];
+    let (own, whole) = (half.files(), PLAIN.files());
+    let mut trials = Trials::default();
+    for k in 0..tries {
+        let other = others[k as usize % 2];
+        let folder = folder();
+        let said: Vec<_> = begun(&[half, other], &folder).into_iter().map(ended).collect();
+        said.iter().for_each(|said| trials.hear(said));
+        let is_well =
+            said.contains(&"AnotherStudy") && said.iter().all(|said| ["ok", "AnotherStudy"].contains(said));
+        trials.add((!is_well).then(|| format!("{said:?}")));
+
+        let mut both = own.clone();
+        both.extend(other.files());
+        trials.add_control(PLAIN.write(&folder_of(&both)).is_err());
+        if k % 4 == 0 {
+            let folder = crate::study::folder();
+            let said: Vec<_> = begun(&[half, rest], &folder).into_iter().map(ended).collect();
+            let is_well = said == ["ok", "ok"] && files(&folder) == whole;
+            trials.add((!is_well).then(|| format!("of one study: {said:?}")));
+        }
+    }
+    trials
 }
 
 pub fn two_sizes(tries: u32) -> Trials {

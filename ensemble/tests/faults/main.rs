@@ -10,6 +10,7 @@
 
 mod at_once;
 mod damage;
+mod edited;
 mod other_studies;
 mod study;
 mod trials;
@@ -22,7 +23,7 @@ const TRIES: u32 = 20;
 /// A row of the table: what is tried, and by what.
 type Row = (&'static str, fn(u32) -> Trials);
 
-const ROWS: [Row; 9] = [
+const ROWS: [Row; 12] = [
     ("another study's parts are there", other_studies::are_there),
     ("two studies begin at once", at_once::two_studies),
     ("one study begins twice at once, with 250 and 600 members a part", at_once::two_sizes),
@@ -32,6 +33,9 @@ const ROWS: [Row; 9] = [
     ("a bit is flipped, in data or footer", damage::flipped),
     ("a run of bytes is zeroed, or the end cut off", damage::overwritten),
     ("a part is renamed over another, or deleted before the call ends", damage::misplaced),
+    ("parts of the model before it was edited are there", edited::are_there),
+    ("another study goes on with other members", other_studies::goes_on),
+    ("two studies begin at once, each with members of its own", at_once::two_studies_apart),
 ];
 
 /// Tries one row, and requires that none is left and that the control is seen.
@@ -83,6 +87,21 @@ fn lost_bytes_are_seen() {
 #[test]
 fn a_part_that_is_another_or_gone_is_seen() {
     try_row(8);
+}
+
+#[test]
+fn an_edited_model_does_not_find_the_parts_of_the_one_before() {
+    try_row(9);
+}
+
+#[test]
+fn another_study_does_not_go_on() {
+    try_row(10);
+}
+
+#[test]
+fn of_two_studies_of_other_members_one_is_refused() {
+    try_row(11);
 }
 
 /// No test of its own: a call in a process of its own, which others start.

@@ -3,7 +3,7 @@
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use crate::study::{Call, PLAIN, folder_of, kind};
+use crate::study::{Call, OF_PART, PLAIN, folder_of, kind};
 use crate::trials::Trials;
 
 /// Studies that differ in starts, in fields of all members or of one, with and without a column, and in the
@@ -36,6 +36,38 @@ pub fn are_there(tries: u32) -> Trials {
 
         let second = Call { odd: Some((between, [0.0, some])), ..large };
         trials.add_control(second.write(&folder_of(&studies[2].1)).is_ok_and(|written| written.found == 1));
+    }
+    trials
+}
+
+/// Studies of equal metadata that differ in starts or fields of all members, of which the second has other
+/// members. Control: a call over the members of both sees that they are of two.
+pub fn goes_on(tries: u32) -> Trials {
+    let mut random = StdRng::seed_from_u64(8);
+    let mut trials = Trials::default();
+    let halves = [Call { members: 3 * OF_PART, ..PLAIN }, Call { from: 3 * OF_PART, ..PLAIN }];
+    let whole = PLAIN.files();
+    let files = halves.map(|half| half.files());
+    for k in 0..tries {
+        let [there, here] = if k % 2 == 0 { [0, 1] } else { [1, 0] };
+        let some = 10_f64.powf(random.random_range(-6.0..0.0));
+        let second = match (k / 2) % 3 {
+            0 => Call { p: -0.5, ..halves[here] },
+            1 => Call { r: some, ..halves[here] },
+            _ => Call { p: 0.5 + some, ..halves[here] },
+        };
+        let folder = folder_of(&files[there]);
+        let result = second.write(&folder);
+        trials.hear(result.as_ref().map_or_else(kind, |_| "ok"));
+        trials.add(result.ok().map(|written| format!("{second:?} went on: {written}")));
+        // The study itself goes on.
+        let own = halves[here].write(&folder);
+        let is_whole = own.is_ok() && crate::study::files(&folder) == whole;
+        trials.add((!is_whole).then(|| format!("{:?} did not go on", halves[here])));
+
+        let mut both = files[there].clone();
+        both.extend(second.files());
+        trials.add_control(PLAIN.write(&folder_of(&both)).is_err());
     }
     trials
 }

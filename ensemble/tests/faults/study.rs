@@ -26,6 +26,8 @@ pub struct Call {
     pub r: f64,
     pub steps: u64,
     pub of_part: u64,
+    /// The first of them.
+    pub from: u64,
     pub members: u64,
     /// The member whose g and r are so much more, if any is.
     pub odd: Option<(u64, [f64; 2])>,
@@ -42,6 +44,7 @@ pub const PLAIN: Call = Call {
     r: 0.0,
     steps: if cfg!(debug_assertions) { 4 } else { 400 },
     of_part: OF_PART,
+    from: 0,
     members: 6 * OF_PART,
     odd: None,
     column: true,
@@ -49,7 +52,7 @@ pub const PLAIN: Call = Call {
 
 impl Call {
     pub fn write(&self, folder: &Path) -> Result<Written, PartsError> {
-        let Self { p, r, steps, of_part, members, odd, column } = *self;
+        let Self { p, r, steps, of_part, from, members, odd, column } = *self;
         let member = |number: u64| -> Result<(Pendulum, State<f64, 1>), StepError> {
             let [more_g, more_r] = odd.filter(|(odd, _)| *odd == number).map_or([0.0; 2], |(_, more)| more);
             let start = State { q: [1e-3 * number as f64].into(), p: [p].into() };
@@ -57,7 +60,8 @@ impl Call {
         };
         let study = Ensemble::new(member).by(Midpoint, 0.1).steps(steps);
         let parts = study.parts(folder).members_per_part(of_part);
-        if column { parts.column("r", |of| of.r).write(0..members) } else { parts.write(0..members) }
+        let numbers = from..members;
+        if column { parts.column("r", |of| of.r).write(numbers) } else { parts.write(numbers) }
     }
 
     /// The files that the call writes where nothing happens.
@@ -71,14 +75,15 @@ impl Call {
         let mut words = text.split_whitespace();
         let (p, r) = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
         let mut next = || words.next()?.parse().ok();
-        Some(Self { p, r, steps: next()?, of_part: next()?, members: next()?, ..PLAIN })
+        let (steps, of_part, from, members) = (next()?, next()?, next()?, next()?);
+        Some(Self { p, r, steps, of_part, from, members, ..PLAIN })
     }
 }
 
 impl fmt::Display for Call {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { p, r, steps, of_part, members, .. } = self;
-        write!(f, "{p} {r} {steps} {of_part} {members}")
+        let Self { p, r, steps, of_part, from, members, .. } = self;
+        write!(f, "{p} {r} {steps} {of_part} {from} {members}")
     }
 }
 

@@ -4,10 +4,12 @@ use core::fmt;
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::collections::TryReserveError;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 use dalembert::nalgebra::SVector;
 use dalembert::run::events::EventError;
+use dalembert::system::sampled_forces;
 use dalembert::{Lagrangian, State, StepError};
 use dalembert_c::{Fields, Number};
 use dalembert_ensemble::parts::{self, PartsError};
@@ -268,8 +270,10 @@ pub fn kept<S: System<N>, const N: usize>(
     );
     let observe = |rows: &mut Vec<Row<N>>, record: &OfMember<'_, S::View<'_>, N>| {
         let of = |system: &S::View<'_>| measured(system, &record.state);
-        let (v, energy) =
-            record.system.later(record.time, of).unwrap_or_else(|_| (SVector::repeat(f64::NAN), f64::NAN));
+        // Of a member that panics there are none.
+        let measured = catch_unwind(AssertUnwindSafe(|| record.system.later(record.time, of)));
+        let measured = measured.ok().and_then(Result::ok);
+        let (v, energy) = measured.unwrap_or_else(|| (SVector::repeat(f64::NAN), f64::NAN));
         rows.push(Row { t: asked.time + record.time, q: record.state.q, v, p: record.state.p, energy });
     };
     let add = |kept: &mut Kept, outcome: Outcome<Vec<Row<N>>, f64, N>| kept.add(outcome, asked.time);
@@ -299,11 +303,54 @@ pub fn written<S: System<N>, const N: usize>(
     );
     let digest = |number: u64| digest(&fields, asked, (number - asked.first) as usize);
     let parts = study.parts(folder).members_per_part(members_per_part).identified_by(digest);
+    let parts = parts.made_within(asked.first..last).metadata("dalembert.model", model::<S, N>());
     let counts = parts.write(asked.first..last).map_err(|error| match error {
         PartsError::Cancelled(_) => NoResult::Cancelled,
         error => NoResult::Parts(error),
     })?;
     Ok(Written { counts, paths: parts.paths(asked.first..last).collect() })
+}
+
+/// States at which a model is asked for its forces.
+const STATES: usize = 2048;
+
+/// The hash that tells a model from one that was edited, whatever its fields and members: of its forces with
+/// fields and inputs that are always these.
+fn model<S: System<N>, const N: usize>() -> String {
+    let mut fields = S::Fields::ZERO;
+    let mut number = 0.7;
+    for field in 0..S::Fields::FIELDS.len() {
+        for index in 0.. {
+            let Some(zero) = fields.entry(field, index) else { break };
+            // No two alike.
+            number = (number + 0.618_033_988_749_894_9) % 1.0;
+            fields.change_entry(field, index, one_like(zero, 0.5 + number));
+        }
+    }
+    let inputs: Vec<f64> = (0..S::INPUTS).map(|k| 0.3 / (1.0 + k as f64)).collect();
+    let mut hash = XxHash3_128::new();
+    let asked = catch_unwind(AssertUnwindSafe(|| {
+        let (q, v) = (SVector::repeat(0.1), SVector::repeat(0.2));
+        let system = S::view(&fields, &inputs, 0.0);
+        sampled_forces(&system, (&q, &v), 1, STATES).for_each(|force| hash.write(&force.to_le_bytes()));
+    }));
+    asked.map_or_else(|_| "panics".to_owned(), |()| format!("{:032x}", hash.finish_128()))
+}
+
+/// A number of the type of another: 1 where that is a whole one.
+fn one_like(like: Number, value: f64) -> Number {
+    match like {
+        Number::F64(_) => Number::F64(value),
+        Number::F32(_) => Number::F32(value as f32),
+        Number::I8(_) => Number::I8(1),
+        Number::I16(_) => Number::I16(1),
+        Number::I32(_) => Number::I32(1),
+        Number::I64(_) => Number::I64(1),
+        Number::U8(_) => Number::U8(1),
+        Number::U16(_) => Number::U16(1),
+        Number::U32(_) => Number::U32(1),
+        Number::U64(_) => Number::U64(1),
+    }
 }
 
 /// The hash that tells a member from others: of its fields, start and input.

@@ -3,6 +3,7 @@
 use core::marker::PhantomData;
 
 use dalembert::Lagrangian;
+use dalembert::system::ActingForce;
 
 use crate::offer::{Offer, StepsToError};
 
@@ -25,7 +26,7 @@ pub trait System<const N: usize>: Sized + 'static {
     /// [`NoParameters`](crate::derivatives::NoParameters), or [`Parameters`](crate::derivatives::Parameters).
     type Parameters;
     /// The type that is stepped: the fields, or a view of them with an input and a time.
-    type View<'a>: Lagrangian<N, Scalar = f64> + Send + Sync;
+    type View<'a>: ActingForce<N, Scalar = f64> + Send + Sync;
 
     /// The views as a run names them, which borrows none.
     type Kind: Lagrangian<N, Scalar = f64> + 'static;

@@ -11,7 +11,6 @@ mod method;
 mod methods;
 mod offers;
 mod phase;
-mod random;
 mod reached;
 mod request;
 mod scale;

@@ -9,13 +9,13 @@ use nalgebra::SVector;
 use super::Methods;
 use super::drive::{DRIVES, Drive};
 use super::phase::plus;
-use super::random::Random;
 use super::scale::Scale;
 use super::shift::{along_the_motion, shift};
 use super::tangent::carried;
 use super::twin::{self, Kept};
 use super::variation::Variation;
 use crate::numbers::Scalar;
+use crate::numbers::random::Random;
 use crate::step::State;
 use crate::system::{ActingForce, Lagrangian, is_timed};
 

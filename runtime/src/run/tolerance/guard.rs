@@ -8,7 +8,6 @@ use nalgebra::SVector;
 use super::estimate::{Estimate, Since};
 use super::grid::Segment;
 use super::hardest::Hardest;
-use super::random::Random;
 use super::scale::Scale;
 use super::twin::Kept;
 use super::unresolved::Unresolved;
@@ -16,6 +15,7 @@ use super::{
     Breach, Choice, Chosen, LastStep, MethodStep, Methods, OffersMethods, ToleranceError, local_error,
 };
 use crate::numbers::Scalar;
+use crate::numbers::random::Random;
 use crate::run::present::at_present;
 use crate::run::{Run, Samples};
 use crate::step::{State, Step, StepError};

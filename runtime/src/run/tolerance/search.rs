@@ -5,11 +5,11 @@ use nalgebra::ComplexField;
 use super::drive::DRIVES;
 use super::grid::{Bounds, segments};
 use super::hardest::Hardest;
-use super::random::Random;
 use super::scale::Scale;
 use super::variation::Variation;
 use super::{Choice, Chosen, Method, MethodStep, Methods, ToleranceError, Trial, local_error};
 use crate::numbers::Scalar;
+use crate::numbers::random::Random;
 use crate::step::{State, StepError};
 use crate::system::{ActingForce, Lagrangian, is_timed};
 
