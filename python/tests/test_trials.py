@@ -1,0 +1,65 @@
+"""Members that panic, and a model that was edited since its parts were written: of the package in ../trials."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+trials = pytest.importorskip("dalembert_trials")
+
+WRONG = [3, 17, 39]
+
+
+@pytest.mark.parametrize("rule", trials.Cut.RULES)
+@pytest.mark.parametrize("every", [None, 10])
+@pytest.mark.parametrize("motion", ["v", "p"])
+def test_members_that_panic_fail_with_their_numbers(rule, every, motion, tmp_path):
+    """Where they are made, of a velocity, or in the lanes in which they are stepped, of a momentum."""
+    pieces = np.arange(40) % 4 + 1
+    pieces[WRONG] = 0
+    q = np.linspace(0.1, 1.0, 40)[:, None]
+    at = {"h": 0.1, "steps": 50, "q": q, motion: [0.0], "rule": rule, "every": every}
+    ends = trials.Cut(1).ensemble(fields={"pieces": pieces}, **at)
+    assert list(ends.failures) == WRONG and all(isinstance(e, RuntimeError) for e in ends.failures.values())
+    for number in np.setdiff1d(np.arange(40), WRONG):
+        run = trials.Cut(int(pieces[number])).run(h=0.1, steps=50, q=q[number], rule=rule, **{motion: [0.0]})
+        assert np.array_equal(np.atleast_2d(ends.q[number])[-1], run.q[-1])
+    parts = trials.Cut(1).ensemble(fields={"pieces": pieces}, folder=tmp_path, members_per_part=16, **at)
+    assert (parts.written, parts.failed) == (3, len(WRONG))
+    # Control: without them none fails.
+    pieces[WRONG] = 1
+    assert not trials.Cut(1).ensemble(fields={"pieces": pieces}, **at).failures
+
+
+WRITE = """
+import sys
+import numpy as np
+from dalembert_trials import Edited
+folder, first = sys.argv[1], int(sys.argv[2])
+at = dict(h=0.1, steps=5, q=np.linspace(0.0, 0.1, 8)[:, None], v=[0.1])
+print(Edited(0.01).ensemble(**at).q.tobytes().hex())
+print(Edited(0.01).ensemble(**at, folder=folder, first=first, members_per_part=4))
+"""
+
+
+def test_an_edited_model_does_not_go_on(tmp_path, request):
+    edited = request.config.getoption("edited")
+    if edited is None:
+        pytest.skip("there is no edited model: --edited")
+
+    def write(first, path=None):
+        environment = os.environ | ({} if path is None else {"PYTHONPATH": str(path)})
+        command = [sys.executable, "-c", WRITE, str(tmp_path), str(first)]
+        ran = subprocess.run(command, env=environment, capture_output=True, text=True)
+        return ran.stdout.splitlines(), ran.stderr
+
+    before = write(0)[0]
+    for first in [0, 8]:
+        ends, error = write(first, edited)
+        # Control: no motion shows the edit.
+        assert ends == before[:1]
+        assert "is another study's: dalembert.model" in error
+    assert write(0)[0] == [before[0], "Parts: 0 parts written, 2 were there; 0 members failed"]
+    assert "2 parts written" in write(8)[0][1]
