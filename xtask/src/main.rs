@@ -41,7 +41,7 @@ page python             … on Python and on clusters, with tests, types and gal
 page clusters           the study of docs/clusters.md by workers here, over SSH and by Slurm
 firmware [MACHINE]      steps on emulated microcontrollers: m4f, m7, m33, rv, or all
 no-panic [LEVEL]        the proof that no step panics, at opt-level 3, s, or both
-slurm                   an ensemble as an array of Slurm, of which tasks are requeued and killed
+slurm [TRIES]           an ensemble as an array of Slurm, of which tasks are requeued and killed; so often beside a living one
 fuzz [SECONDS] [keep]   fuzzes each target for 60 s, or as many as said; `keep` renews the corpus
 bench casadi|python     measures beside CasADi, or beside libraries of Python, and writes the page
 publish [all]           what must hold before the crates are published; `all` takes longer
@@ -86,7 +86,8 @@ fn run() -> Result<()> {
         ["firmware", machine] => firmware::run(Some(machine))?,
         ["no-panic"] => no_panic::run(&["3", "s"])?,
         ["no-panic", level] => no_panic::run(&[level])?,
-        ["slurm"] => slurm::run()?,
+        ["slurm"] => slurm::run(None)?,
+        ["slurm", requeued] => slurm::run(Some(requeued))?,
         ["fuzz", ref rest @ ..] => fuzz::run(rest)?,
         ["bench", "casadi"] => bench::casadi::run()?,
         ["bench", "python"] => bench::python::run()?,

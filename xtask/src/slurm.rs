@@ -2,6 +2,8 @@
 //! and one that is killed. In the end every part is there once, with the bits of one process that nothing
 //! happened to.
 
+mod requeued;
+
 use std::path::Path;
 use std::time::Duration;
 use std::{fs, thread};
@@ -14,8 +16,13 @@ use crate::project;
 
 const PARTS: usize = 16;
 
-/// Builds the program, starts a Slurm and submits the array twice. Needs root.
-pub fn run() -> Result<()> {
+/// Tries of a task that is requeued, unless said.
+const TRIES: u64 = 3;
+
+/// Builds the program, starts a Slurm and submits the array twice; then a task is requeued so many times
+/// beside one that lives. Needs root.
+pub fn run(requeued: Option<&str>) -> Result<()> {
+    let tries = requeued.map_or(Ok(TRIES), str::parse).context("how often a task is requeued")?;
     let shell = project::shell()?;
     cmd!(shell, "cargo build --release -p dalembert-ensemble --features parquet --example cluster").run()?;
     let program = project::target().join("release/examples/cluster");
@@ -50,7 +57,7 @@ pub fn run() -> Result<()> {
     ensure!(parts(&folder)? == PARTS, "{} of {PARTS} parts", parts(&folder)?);
     cmd!(shell, "diff -r {folder} {alone}").run()?;
     println!("every part once, and the bits of one process: {PARTS} of {PARTS} parts");
-    Ok(())
+    requeued::run(&shell, home, &program, tries)
 }
 
 /// Submits the array, and returns its number.

@@ -2,7 +2,7 @@
 //! gallery.
 
 use std::env;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 use xshell::{Shell, cmd};
@@ -50,7 +50,12 @@ pub fn run() -> Result<()> {
     let printed =
         cmd!(shell, "cargo run --quiet --release -p dalembert-c --example python_reference").output()?;
     shell.write_file(&reference, printed.stdout)?;
-    cmd!(shell, "python -m pytest --quiet -p no:cacheprovider python/tests --reference {reference}").run()?;
+    let edited = trials(&shell, work)?;
+    let tests =
+        cmd!(shell, "python -m pytest --quiet -p no:cacheprovider python/tests --reference {reference}");
+    tests.args(["--edited".as_ref(), edited.as_os_str()]).run()?;
+    // Each kind of long call is interrupted once.
+    cmd!(shell, "python python/tests/faults.py 11").env("RUST_BACKTRACE", "0").ignore_stderr().run()?;
 
     of_clusters(&shell, work)?;
     for script in shell.read_dir("python/gallery")? {
@@ -64,7 +69,16 @@ pub fn run() -> Result<()> {
     Ok(())
 }
 
-fn environment(shell: &Shell, work: &Path) -> Result<std::path::PathBuf> {
+/// Installs the package of systems that misbehave; returns a folder with the same one edited.
+fn trials(shell: &Shell, work: &Path) -> Result<PathBuf> {
+    let edited = work.join("edited");
+    cmd!(shell, "pip install --quiet ./python/trials").run()?;
+    let anew = cmd!(shell, "pip install --quiet --no-deps --target {edited} ./python/trials");
+    anew.env("DALEMBERT_EDITED", "1").run()?;
+    Ok(edited)
+}
+
+fn environment(shell: &Shell, work: &Path) -> Result<PathBuf> {
     let is_new =
         cmd!(shell, "python3 -c").arg("import sys; sys.exit(sys.version_info < (3, 11))").quiet().run();
     ensure!(is_new.is_ok(), "python3 is older than 3.11, or is not there");

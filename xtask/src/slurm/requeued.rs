@@ -1,0 +1,67 @@
+//! A task that Slurm requeues while the one before lives on elsewhere, as on a node that was cut off.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+use std::{fs, thread};
+
+use anyhow::{Context, Result, ensure};
+use xshell::{Shell, cmd};
+
+use super::{wait_for_the_end, wait_until};
+
+/// Members of the study: eight parts, a second or two by one thread.
+const MEMBERS: &str = "0..131072";
+
+/// Tries it so many times: the task runs under Slurm, the same command lives beside, and the task is requeued
+/// at some moment. Both have to end well, with the files of a call that nothing happened to.
+pub fn run(shell: &Shell, home: &Path, program: &Path, tries: u64) -> Result<()> {
+    let whole = home.join("whole");
+    cmd!(shell, "{program} --members {MEMBERS} {whole}").quiet().ignore_stderr().ignore_stdout().run()?;
+    let [mut left, mut beside, mut killed] = [0, 0, 0];
+    for number in 0..tries {
+        let folder = home.join(format!("requeued-{number}"));
+        let said = home.join(format!("said-{number}"));
+        let task = format!(
+            "echo begun >>{said}; RAYON_NUM_THREADS=1 {program} --members {MEMBERS} {folder} 2>/dev/null; echo $? >>{said}",
+            said = said.display(),
+            program = program.display(),
+            folder = folder.display(),
+        );
+        let job =
+            cmd!(shell, "sbatch --parsable --requeue --output=/dev/null --wrap {task}").quiet().read()?;
+        wait_until(500, 20, || Ok(said.exists()))?;
+        let mut living = Command::new(program);
+        living.args(["--members", MEMBERS]).arg(&folder).env("RAYON_NUM_THREADS", "1");
+        let mut living = living.stdout(Stdio::null()).stderr(Stdio::null()).spawn().context("the program")?;
+        // Not always the same moment of either.
+        thread::sleep(Duration::from_millis(37 * number % 400));
+        cmd!(shell, "scontrol requeue {job}").quiet().ignore_status().ignore_stderr().run()?;
+        // Slurm holds a requeued task back for two minutes.
+        let lines = || fs::read_to_string(&said).map_or(0, |said| said.matches("begun").count());
+        wait_until(200, 50, || {
+            let now = cmd!(shell, "scontrol update JobId={job} StartTime=now");
+            now.quiet().ignore_status().ignore_stderr().run()?;
+            Ok(lines() == 2)
+        })?;
+        beside += u64::from(living.try_wait()?.is_none());
+        let is_well = living.wait()?.success();
+        wait_for_the_end(shell, &job)?;
+        let text = fs::read_to_string(&said)?;
+        killed += u64::from(text == "begun\nbegun\n0\n");
+        let is_same =
+            cmd!(shell, "diff -r {folder} {whole}").quiet().ignore_status().output()?.status.success();
+        if !(is_well && text.ends_with("begun\n0\n") && is_same) {
+            left += 1;
+            eprintln!(
+                "requeued {number}: the living one {is_well}, the task said {text:?}, the same files {is_same}"
+            );
+        }
+        fs::remove_dir_all(&folder)?;
+    }
+    println!(
+        "requeued beside a living one: {tries} tries, {left} left; killed {killed}, living then {beside}"
+    );
+    ensure!(left == 0 && killed > 0 && beside > 0, "{left} left of {tries}");
+    Ok(())
+}
