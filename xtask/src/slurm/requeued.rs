@@ -8,7 +8,7 @@ use std::{fs, thread};
 use anyhow::{Context, Result, ensure};
 use xshell::{Shell, cmd};
 
-use super::{wait_for_the_end, wait_until};
+use super::wait_until;
 
 /// Members of the study: eight parts, a second or two by one thread.
 const MEMBERS: &str = "0..131072";
@@ -38,17 +38,18 @@ pub fn run(shell: &Shell, home: &Path, program: &Path, tries: u64) -> Result<()>
         thread::sleep(Duration::from_millis(37 * number % 400));
         cmd!(shell, "scontrol requeue {job}").quiet().ignore_status().ignore_stderr().run()?;
         // Slurm holds a requeued task back for two minutes.
-        let lines = || fs::read_to_string(&said).map_or(0, |said| said.matches("begun").count());
-        wait_until(200, 50, || {
+        let read = || fs::read_to_string(&said).unwrap_or_default();
+        wait_until(2400, 50, || {
             let now = cmd!(shell, "scontrol update JobId={job} StartTime=now");
             now.quiet().ignore_status().ignore_stderr().run()?;
-            Ok(lines() == 2)
+            Ok(read().matches("begun").count() == 2)
         })?;
         beside += u64::from(living.try_wait()?.is_none());
         let is_well = living.wait()?.success();
-        wait_for_the_end(shell, &job)?;
-        let text = fs::read_to_string(&said)?;
-        killed += u64::from(text == "begun\nbegun\n0\n");
+        // Not by what Slurm lists: where it does not answer in time, nothing seems to be left.
+        wait_until(2400, 50, || Ok(read().ends_with("begun\n0\n")))?;
+        let text = read();
+        killed += u64::from(!text.starts_with("begun\n0\n"));
         let is_same =
             cmd!(shell, "diff -r {folder} {whole}").quiet().ignore_status().output()?.status.success();
         if !(is_well && text.ends_with("begun\n0\n") && is_same) {
