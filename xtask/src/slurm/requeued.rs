@@ -10,8 +10,8 @@ use xshell::{Shell, cmd};
 
 use super::wait_until;
 
-/// Members of the study: eight parts, a second or two by one thread.
-const MEMBERS: &str = "0..131072";
+/// Members of the study: sixteen parts, some seconds by one thread.
+const MEMBERS: &str = "0..262144";
 
 /// Tries it so many times: the task runs under Slurm, the same command lives beside, and the task is requeued
 /// at some moment. Both have to end well, with the files of a call that nothing happened to.
@@ -37,7 +37,8 @@ pub fn run(shell: &Shell, home: &Path, program: &Path, tries: u64) -> Result<()>
         // Not always the same moment of either.
         thread::sleep(Duration::from_millis(37 * number % 400));
         cmd!(shell, "scontrol requeue {job}").quiet().ignore_status().ignore_stderr().run()?;
-        // Slurm holds a requeued task back for two minutes.
+        // A node launches no task that it has killed a moment ago; and Slurm holds it back for two minutes.
+        thread::sleep(Duration::from_millis(1200));
         let read = || fs::read_to_string(&said).unwrap_or_default();
         wait_until(2400, 50, || {
             let now = cmd!(shell, "scontrol update JobId={job} StartTime=now");
