@@ -43,7 +43,7 @@
 //! **A part is of its members.** Its metadata hold the same, its range, and a digest of its members' starts,
 //! columns, and derivatives of L; of 64 members, evenly spread, also of the state after the first step, and
 //! of the forces at 2 048 states in all, near and far
-//! ([`sampled_forces`](dalembert::system::sampled_forces)): a model that was edited does not find the parts
+//! ([`sampled_forces`]): a model that was edited does not find the parts
 //! of the one before. A call that finds a part makes its members anew, steps them no further, and compares. A
 //! field that stands in no column, in R or f of members between those 64 alone, is not seen: say it by
 //! [`identified_by`](Parts::identified_by). Nor is a closure of [`stop_when`](Study::stop_when): say by
