@@ -14,8 +14,8 @@ use super::wait_until;
 const MEMBERS: &str = "0..262144";
 
 /// Tries it so many times: the task runs under Slurm, the same command lives beside, and the task is requeued
-/// at some moment. Both have to end well, with the files of a call that nothing happened to. A task that Slurm
-/// does not launch again ("already killed, do not launch batch job") is no try.
+/// at some moment. Both have to end well, with the files of a call that nothing happened to. A task that
+/// Slurm does not launch again ("already killed, do not launch batch job") is no try.
 pub fn run(shell: &Shell, home: &Path, program: &Path, tries: u64) -> Result<()> {
     let whole = home.join("whole");
     cmd!(shell, "{program} --members {MEMBERS} {whole}").quiet().ignore_stderr().ignore_stdout().run()?;
