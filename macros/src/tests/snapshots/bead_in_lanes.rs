@@ -221,7 +221,7 @@ const _: () = {
     #[automatically_derived]
     impl ::dalembert::generated::Explicit<1> for Bead {
         #[inline]
-        fn step_matrix(&self, h: f64) -> <Self as Discrete<Trapezoidal, 1>>::Matrix {
+        fn step_matrix(&self, h: f64) -> <Self as Fused<Trapezoidal, 1>>::Matrix {
             let half = 0.5 * h;
             SMatrix::from([[self.m + self.r * half]])
         }

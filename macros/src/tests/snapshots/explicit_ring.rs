@@ -214,7 +214,7 @@ const _: () = {
     #[automatically_derived]
     impl ::dalembert::generated::Explicit<2> for Ring {
         #[inline]
-        fn step_matrix(&self, h: f64) -> <Self as Discrete<Trapezoidal, 2>>::Matrix {
+        fn step_matrix(&self, h: f64) -> <Self as Fused<Trapezoidal, 2>>::Matrix {
             let half = 0.5 * h;
             let t1 = 1.0 + self.k * half;
             ::dalembert::generated::Banded {
