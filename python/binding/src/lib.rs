@@ -35,8 +35,8 @@ mod ensemble;
 mod error;
 #[doc(hidden)]
 pub mod events;
-#[doc(hidden)]
 mod linearization;
+#[doc(hidden)]
 pub mod many;
 #[doc(hidden)]
 pub mod model;

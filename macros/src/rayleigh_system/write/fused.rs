@@ -153,15 +153,16 @@ pub fn asks_rules(system: &System<'_>, may_cancel: bool, kernels: &[Option<Kerne
 fn of_terms(system: &System<'_>, rule: Rule) -> Kernel {
     let name = rule.ident();
     let joint = rule.joint();
-    let [step_kernel, momenta] = ["kernel", "momenta"].map(|function| {
-        if joint.is_some() {
-            let function = if function == "kernel" { quote!(step_kernel) } else { quote!(momenta) };
-            return quote!(<#name as JointRule>::#function(self, q0, v, h));
-        }
-        // Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0, v, h)
+    // Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0, v, h)
+    let terms = |function: &str| {
         let terms = system.parts().map(|part| format_ident!("{}_{function}", part.name()));
         quote!(#(#name::#terms(self, q0, v, h))+*)
-    });
+    };
+    let [step_kernel, momenta] = match joint {
+        Some(_) => [quote!(step_kernel), quote!(momenta)]
+            .map(|function| quote!(<#name as JointRule>::#function(self, q0, v, h))),
+        None => ["kernel", "momenta"].map(terms),
+    };
     Kernel {
         step_kernel,
         momenta,
