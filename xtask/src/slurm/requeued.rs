@@ -37,6 +37,9 @@ pub fn run(shell: &Shell, home: &Path, program: &Path, tries: u64) -> Result<()>
         let mut living = living.stdout(Stdio::null()).stderr(Stdio::null()).spawn().context("the program")?;
         // Not always the same moment of either.
         thread::sleep(Duration::from_millis(37 * number % 400));
+        // It waits for the task to begin again, however fast it would be done.
+        let pid = living.id().to_string();
+        cmd!(shell, "kill -STOP {pid}").quiet().run()?;
         cmd!(shell, "scontrol requeue {job}").quiet().ignore_status().ignore_stderr().run()?;
         // A node launches no task that it has killed a moment ago; and Slurm holds it back for two minutes.
         thread::sleep(Duration::from_millis(1200));
@@ -49,6 +52,7 @@ pub fn run(shell: &Shell, home: &Path, program: &Path, tries: u64) -> Result<()>
         let is_begun = read().matches("begun").count() == 2;
         dropped += u64::from(!is_begun);
         beside += u64::from(is_begun && living.try_wait()?.is_none());
+        cmd!(shell, "kill -CONT {pid}").quiet().run()?;
         let is_well = living.wait()?.success();
         // Not by what Slurm lists: where it does not answer in time, nothing seems to be left.
         wait_until(2400, 50, || Ok(!is_begun || read().ends_with("begun\n0\n")))?;
