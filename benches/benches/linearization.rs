@@ -296,13 +296,15 @@ fn measure<R: Copy, L, const N: usize, const M: usize, const P: usize>(
             &|times| {
                 for _ in 0..times {
                     let (q0, q1) = (black_box(&first.state.q), black_box(&next.state.q));
-                    let _ = black_box(by.linearization_with_input::<M>(q0, q1));
+                    let step = by.segment(q0, q1).and_then(|segment| segment.linearized());
+                    let _ = black_box(step.map(|step| (step.by_state(), step.by_input::<M>())));
                 }
             },
             &|times| {
                 for _ in 0..times {
                     let (q0, q1) = (black_box(&first.state.q), black_box(&next.state.q));
-                    let _ = black_box(by.step_hessian::<M>(q0, q1, &covector));
+                    let step = by.segment(q0, q1).and_then(|segment| segment.linearized());
+                    let _ = black_box(step.map(|step| step.hessian::<M>(&covector)));
                 }
             },
         ],

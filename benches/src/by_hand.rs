@@ -23,7 +23,7 @@ pub use spring_chain::SpringChain;
 
 use dalembert::nalgebra::SVector;
 use dalembert::rules::Fused;
-use dalembert::step::{Memory, Momenta, NewtonMatrix, StepKernel};
+use dalembert::step::{Memory, Momenta, NewtonMatrix, Segment, StepKernel};
 use dalembert::system::{ActingForce, Derivatives, Gradient};
 use dalembert::{Discrete, Lagrangian, Midpoint};
 
@@ -42,15 +42,10 @@ pub trait HandDerived<const N: usize>: Sized {
     fn generated(&self) -> &Self::Generated;
 
     /// p0 and ∂p0/∂v̄.
-    fn step_kernel(
-        &self,
-        q0: &SVector<f64, N>,
-        v: &SVector<f64, N>,
-        h: f64,
-    ) -> StepKernel<f64, N, Self::Matrix>;
+    fn step_kernel(&self, segment: &Segment<f64, N>) -> StepKernel<f64, N, Self::Matrix>;
 
     /// p0 and p1.
-    fn momenta(&self, q0: &SVector<f64, N>, v: &SVector<f64, N>, h: f64) -> Momenta<f64, N>;
+    fn momenta(&self, segment: &Segment<f64, N>) -> Momenta<f64, N>;
 }
 
 /// A system whose step is derived by hand: the runtime's solver, guess and reports over hand-written
@@ -81,17 +76,12 @@ impl<K: HandDerived<N>, const N: usize> Fused<Midpoint, N> for ByHand<K> {
     type Memory = K::Memory;
 
     #[inline]
-    fn step_kernel(
-        &self,
-        q0: &SVector<f64, N>,
-        v: &SVector<f64, N>,
-        h: f64,
-    ) -> StepKernel<f64, N, K::Matrix> {
-        self.0.step_kernel(q0, v, h)
+    fn step_kernel(&self, segment: &Segment<f64, N>) -> StepKernel<f64, N, K::Matrix> {
+        self.0.step_kernel(segment)
     }
 
     #[inline]
-    fn momenta(&self, q0: &SVector<f64, N>, v: &SVector<f64, N>, h: f64) -> Momenta<f64, N> {
-        self.0.momenta(q0, v, h)
+    fn momenta(&self, segment: &Segment<f64, N>) -> Momenta<f64, N> {
+        self.0.momenta(segment)
     }
 }

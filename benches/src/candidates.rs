@@ -4,8 +4,8 @@ use std::hint::black_box;
 use std::rc::Rc;
 
 use dalembert::nalgebra::SVector;
-use dalembert::step::Flow;
-use dalembert::{Discrete, Discretise, Midpoint, State};
+use dalembert::step::{ClosedForm, Flow, Segment};
+use dalembert::{Discretise, Midpoint, State};
 use dalembert_scenes::{
     Arm, DoublePendulum, EccentricKepler, FputChain8, FputChain32, HenonHeiles, Kepler, Oscillator,
     PendulumChain16, Ring, SpringChain8, SpringChain16, SpringChain32, num_dual,
@@ -73,7 +73,7 @@ impl Scene {
     /// Adds a way on the runtime's trajectory.
     fn with<L, const N: usize>(mut self, way: Way, system: L, start: Start<N>) -> Self
     where
-        L: Flow<Midpoint, N> + Discrete<Midpoint, N, Scalar = f64> + 'static,
+        L: ClosedForm<Midpoint, N, Scalar = f64> + 'static,
     {
         let Start { q, v, h } = start;
         let start = State::from_velocity(&system, q, v).expect("the scene is regular");
@@ -83,7 +83,7 @@ impl Scene {
             for _ in 0..times {
                 let (system, start) = black_box((&*checked, &start));
                 start.verify(system).expect("the scene is as written");
-                system.verify_momenta(start, h).expect("the scene's step is");
+                Flow::<Midpoint, N>::verify_momenta(system, start, h).expect("the scene's step is");
             }
         };
         self.starts.push((way, Box::new(verify)));
@@ -108,7 +108,7 @@ impl Scene {
         run: impl Fn([f64; 2], [f64; 2], u32) -> ([f64; 2], [f64; 2]) + 'static,
     ) -> Self
     where
-        L: Discrete<Midpoint, 2, Scalar = f64>,
+        L: ClosedForm<Midpoint, 2, Scalar = f64>,
     {
         let state = State::from_velocity(system, start.q, start.v).expect("the scene is regular");
         let run = move |steps: usize| {
@@ -164,13 +164,17 @@ fn evaluations<L, const N: usize>(
     h: f64,
 ) -> impl Fn(usize)
 where
-    L: Discrete<Midpoint, N, Scalar = f64>,
+    L: ClosedForm<Midpoint, N, Scalar = f64>,
 {
     move |times| {
         let system = black_box(&*system);
         for _ in 0..times {
-            black_box(system.step_kernel(black_box(&q), black_box(&v), black_box(h)));
-            black_box(system.momenta(black_box(&q), black_box(&v), black_box(h)));
+            black_box(system.step_kernel(&Segment {
+                q0: *black_box(&q),
+                v: *black_box(&v),
+                h: black_box(h),
+            }));
+            black_box(system.momenta(&Segment { q0: *black_box(&q), v: *black_box(&v), h: black_box(h) }));
         }
     }
 }
@@ -218,7 +222,7 @@ pub fn scenes() -> Vec<Scene> {
 pub fn chains() -> [[Scene; 2]; 2] {
     fn scene<L, const N: usize>(name: &'static str, system: L) -> Scene
     where
-        L: Discrete<Midpoint, N, Scalar = f64> + 'static,
+        L: ClosedForm<Midpoint, N, Scalar = f64> + 'static,
     {
         let start = Start { q: displacements(), v: [0.0; N], h: 0.05 };
         Scene::new(name, N).with(Way::Generated, system, start)

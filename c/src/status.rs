@@ -187,9 +187,9 @@ mod tests {
             [Status::NoDerivativeOfLagrangian, Status::NoDerivativeOfRayleigh, Status::NoDerivativeOfForce];
         for (i, status) in statuses.into_iter().enumerate() {
             let mut system = Rough { shares: [1.0; 3], soft: [1.0; 3] };
-            assert!(system.by(Midpoint, 0.1).linearization(&rest.q, &rest.q).is_ok());
+            assert!(system.by(Midpoint, 0.1).linearized(&rest).is_ok());
             system.soft[i] = 0.0;
-            let error = system.by(Midpoint, 0.1).linearization(&rest.q, &rest.q).unwrap_err();
+            let error = system.by(Midpoint, 0.1).linearized(&rest).err().unwrap();
             assert_eq!(Status::from(error), status);
             assert!(status.text_for_c().contains("sqrt(s + eps^2)"), "{status}");
         }

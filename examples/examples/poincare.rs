@@ -155,8 +155,8 @@ pub fn orbit(start: &State<f64, 2>, crossings: usize) -> Result<Orbit> {
                 orbit.off = [orbit.off[0].max(change), orbit.off[1].max(q[0].abs())];
             }
             Watched::Step(step) => {
-                let (_, linearization) = tangent_steps.linearized_step(&state)?;
-                let carried = linearization.a.assembled::<4>() * tangent;
+                let (_, a) = tangent_steps.linearized_step(&state)?;
+                let carried = a.assembled::<4>() * tangent;
                 orbit.growth += carried.norm().ln();
                 tangent = carried.normalize();
                 state = step.state;

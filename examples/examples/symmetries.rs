@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use dalembert::noether::Generator;
-use dalembert::samples::{Segment, segments, tangent_points};
+use dalembert::samples::{Pair, segments, tangent_points};
 use dalembert::{Discrete, Discretise, Midpoint, State, rayleigh, rayleigh_system};
 use dalembert_examples::picture::{self, Curve, Dash, Panel, RGBColor, colour, linear, logarithmic};
 
@@ -150,7 +150,7 @@ fn curve<L: Discrete<Midpoint, 2, Scalar = f64>>(
     (colour, dash): (RGBColor, Dash),
     system: &L,
     generator: &Generator<f64, 2>,
-    segments: &[Segment<f64, 2>],
+    segments: &[Pair<f64, 2>],
     (q, v): ([f64; 2], [f64; 2]),
 ) -> Result<Curve<'static>> {
     let noether = system.by(Midpoint, H).noether();

@@ -7,7 +7,7 @@
 
 use dalembert::rules::{DisplacementRule, Fused};
 use dalembert::run::VelocityHistory;
-use dalembert::step::{Momenta, StepKernel};
+use dalembert::step::{Momenta, Segment, StepKernel};
 use dalembert::system::{ActingForce, Derivatives};
 use dalembert::{Lagrangian, Midpoint, Rayleigh};
 use nalgebra::{Matrix2, Vector2};
@@ -69,11 +69,11 @@ impl Fused<Midpoint, 2> for RingByHand {
     type Matrix = Matrix2<f64>;
     type Memory = VelocityHistory<f64, 2>;
 
-    fn step_kernel(&self, q0: &Vector2<f64>, v: &Vector2<f64>, h: f64) -> StepKernel<f64, 2> {
-        Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0, v, h)
+    fn step_kernel(&self, segment: &Segment<f64, 2>) -> StepKernel<f64, 2> {
+        Midpoint::lagrangian_kernel(self, segment) + Midpoint::rayleigh_kernel(self, segment)
     }
 
-    fn momenta(&self, q0: &Vector2<f64>, v: &Vector2<f64>, h: f64) -> Momenta<f64, 2> {
-        Midpoint::lagrangian_momenta(self, q0, v, h) + Midpoint::rayleigh_momenta(self, q0, v, h)
+    fn momenta(&self, segment: &Segment<f64, 2>) -> Momenta<f64, 2> {
+        Midpoint::lagrangian_momenta(self, segment) + Midpoint::rayleigh_momenta(self, segment)
     }
 }

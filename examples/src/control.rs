@@ -3,7 +3,6 @@
 //! the clock of a sensor.
 
 use anyhow::{Context, Result};
-use dalembert::derivative::Linearization;
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::step::DiscreteDriven;
 use dalembert::{Discrete, Discretise, Midpoint, State, StepError};
@@ -58,8 +57,9 @@ pub fn linearised<L, const N: usize, const M: usize, const X: usize>(
 where
     L: DiscreteDriven<Midpoint, N, M, Scalar = f64>,
 {
-    let (step, Linearization { a, b, .. }) = system.by(Midpoint, h).linearized_step_with_input(&state(x))?;
-    Ok(Linearised { next: vector(&step.state), a: a.assembled(), b: b.assembled() })
+    let step = system.by(Midpoint, h).linearized(&state(x))?;
+    let (a, b) = (step.by_state()?.assembled(), step.by_input()?.assembled());
+    Ok(Linearised { next: vector(&step.step().state), a, b })
 }
 
 /// The gain K of u = −K x that minimises Σ xᵀQx + uᵀRu, by iteration of the discrete Riccati equation.

@@ -7,9 +7,9 @@
 #[expect(dead_code, reason = "of the scene, the system and its start are tested here")]
 mod ring;
 
-use dalembert::step::DiscreteRayleigh;
+use dalembert::step::{ClosedForm, DiscreteRayleigh, Fused, Segment};
 use dalembert::system::{CovectorDerivatives, Derivatives};
-use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, Rayleigh, State};
+use dalembert::{Discretise, Lagrangian, Midpoint, Rayleigh, State};
 use dalembert_examples::by_hand::RingByHand;
 use nalgebra::{Matrix2, Vector2, vector};
 use ring::Ring;
@@ -97,25 +97,39 @@ where
         let q1 = &(q0 + v * h);
         // The largest entry is in h D11 L/4 + D22 L/h, D12 L being 0.
         let mut comparison = Comparison::of_terms(h * terms(&((q0 + q1) / 2.0), v) + (1.0 + K) / h);
-        comparison.entries(&[a.discrete_lagrangian(q0, q1, h)], &[b.discrete_lagrangian(q0, q1, h)]);
-        comparison.entries(&[a.discrete_rayleigh(q0, q1, h)], &[b.discrete_rayleigh(q0, q1, h)]);
-        comparison.entries(&[a.segment_energy(q0, q1, h)], &[b.segment_energy(q0, q1, h)]);
-        comparison.derivatives(
-            &a.discrete_lagrangian_derivatives(q0, q1, h),
-            &b.discrete_lagrangian_derivatives(q0, q1, h),
+        comparison.entries(
+            &[a.discrete_lagrangian(&Segment::between(q0, q1, h))],
+            &[b.discrete_lagrangian(&Segment::between(q0, q1, h))],
+        );
+        comparison.entries(
+            &[a.discrete_rayleigh(&Segment::between(q0, q1, h))],
+            &[b.discrete_rayleigh(&Segment::between(q0, q1, h))],
+        );
+        comparison.entries(
+            &[a.segment_energy(&Segment::between(q0, q1, h))],
+            &[b.segment_energy(&Segment::between(q0, q1, h))],
         );
         comparison.derivatives(
-            &a.discrete_rayleigh_derivatives(q0, q1, h),
-            &b.discrete_rayleigh_derivatives(q0, q1, h),
+            &a.discrete_lagrangian_derivatives(&Segment::between(q0, q1, h)),
+            &b.discrete_lagrangian_derivatives(&Segment::between(q0, q1, h)),
         );
-        let [f, g] = [a.discrete_force(q0, q1, h), b.discrete_force(q0, q1, h)];
+        comparison.derivatives(
+            &a.discrete_rayleigh_derivatives(&Segment::between(q0, q1, h)),
+            &b.discrete_rayleigh_derivatives(&Segment::between(q0, q1, h)),
+        );
+        let [f, g] =
+            [a.discrete_force(&Segment::between(q0, q1, h)), b.discrete_force(&Segment::between(q0, q1, h))];
         comparison.entries(f.minus.iter().chain(&f.plus), g.minus.iter().chain(&g.plus));
-        let [f, g] = [a.discrete_force_derivatives(q0, q1, h), b.discrete_force_derivatives(q0, q1, h)];
+        let [f, g] = [
+            a.discrete_force_derivatives(&Segment::between(q0, q1, h)),
+            b.discrete_force_derivatives(&Segment::between(q0, q1, h)),
+        ];
         comparison.covector(&f.minus, &g.minus);
         comparison.covector(&f.plus, &g.plus);
-        let [f, g] = [a.step_kernel(q0, v, h), b.step_kernel(q0, v, h)];
+        let [f, g] =
+            [a.step_kernel(&Segment { q0: *q0, v: *v, h }), b.step_kernel(&Segment { q0: *q0, v: *v, h })];
         comparison.entries(f.p0.iter().chain(&f.matrix), g.p0.iter().chain(&g.matrix));
-        let [f, g] = [a.momenta(q0, v, h), b.momenta(q0, v, h)];
+        let [f, g] = [a.momenta(&Segment { q0: *q0, v: *v, h }), b.momenta(&Segment { q0: *q0, v: *v, h })];
         comparison.entries(f.p0.iter().chain(&f.p1), g.p0.iter().chain(&g.p1));
         worst.max(comparison.worst)
     })
@@ -134,14 +148,14 @@ fn the_functions_and_their_derivatives_are_equal() {
 /// |J⁻¹| < 1.1, as h²/4 ∂²V/∂q² > −0.05.
 fn of_steps<A, B>(a: &A, b: &B) -> f64
 where
-    A: Discrete<Midpoint, 2, Scalar = f64, Matrix = Matrix2<f64>>,
-    B: Discrete<Midpoint, 2, Scalar = f64, Matrix = Matrix2<f64>>,
+    A: ClosedForm<Midpoint, 2, Scalar = f64, Matrix = Matrix2<f64>>,
+    B: ClosedForm<Midpoint, 2, Scalar = f64, Matrix = Matrix2<f64>>,
 {
     points().iter().fold(0.0, |worst: f64, (q, v)| {
         let state = State { q: *q, p: *v };
         let [f, g] =
             [a.by(Midpoint, ring::H).step(&state).unwrap(), b.by(Midpoint, ring::H).step(&state).unwrap()];
-        let j = a.step_kernel(q, &f.velocity, ring::H).matrix.norm();
+        let j = a.step_kernel(&Segment { q0: *q, v: f.velocity, h: ring::H }).matrix.norm();
         let left = 16.0 * 4.0 * f64::EPSILON * (state.p.norm() + j * f.velocity.norm());
         let unit = (2.0 * left * 1.1 * (2.0 + j)).max(f64::MIN_POSITIVE);
         let mut comparison = Comparison { unit, worst };
@@ -177,7 +191,7 @@ fn the_discrete_objects_are_those_of_the_midpoint_rule() {
         comparison.entries(&[ring.by(Midpoint, h).discrete_lagrangian(&q0, &q1)], &[lagrangian]);
         let rayleigh = h * h / 2.0 * 0.5 * K * v.norm_squared();
         comparison.entries(&[ring.by(Midpoint, h).discrete_rayleigh(&q0, &q1)], &[rayleigh]);
-        let momenta = Discrete::<Midpoint, 2>::momenta(&ring, &q0, &v, h);
+        let momenta = Fused::<Midpoint, 2>::momenta(&ring, &Segment { q0, v, h });
         comparison.entries(&momenta.p0, &(v + h / 2.0 * slope + K * h / 2.0 * v));
         comparison.entries(&momenta.p1, &(v - h / 2.0 * slope - K * h / 2.0 * v));
         assert!(comparison.worst <= 1.0, "{} units of rounding at q0 = {q0}, v = {v}", comparison.worst);

@@ -21,7 +21,7 @@ pub use crate::run::{
     DriftMemory, Explicit, ExplicitDriftMemory, ExplicitInLanes, ExplicitMemory, KeptMatrix, VelocityHistory,
 };
 #[doc(no_inline)]
-pub use crate::step::{DiscreteInLanes, DiscreteSecondOrder, Momenta, StartByInput, StepKernel};
+pub use crate::step::{DiscreteInLanes, Momenta, Segment, StepKernel};
 #[doc(no_inline)]
 pub use crate::system::{
     ActingForce, CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian, ForcedLagrangianInLanes,

@@ -154,8 +154,10 @@ mod attributes {
 /// assert!((state.q[0] - 0.5).abs() < 1e-3);
 ///
 /// // The next step with A = ∂(q1, p1)/∂(q0, p0) and B = ∂(q1, p1)/∂u.
-/// let (_step, by) = arm.driven([0.5_f64.sin()]).by(Midpoint, h).linearized_step_with_input(&state)?;
-/// assert!((by.a.q_by_p[0] / h - 1.0).abs() < 1e-3 && (by.b.p[0] / h - 1.0).abs() < 1e-3);
+/// let driven = arm.driven([0.5_f64.sin()]);
+/// let step = driven.by(Midpoint, h).linearized(&state)?;
+/// let (a, b) = (step.by_state()?, step.by_input::<1>()?);
+/// assert!((a.q_by_p[0] / h - 1.0).abs() < 1e-3 && (b.p[0] / h - 1.0).abs() < 1e-3);
 /// # Ok::<(), StepError>(())
 /// ```
 ///
@@ -176,7 +178,7 @@ mod attributes {
 /// |---|---|
 /// | `rule = midpoint`, `rule = [midpoint, trapezoidal]` | the rules of discretisation; midpoint unless said |
 /// | `derivatives = auto`, `expanded`, `num_dual` | who makes the derivatives; written out where that can be, up to 20 000 operations in one function, unless said |
-/// | `parameters = [m, c[0]]` | fields by which the step is differentiated: [`Discretised::state_by_parameters`]; written out only |
+/// | `parameters = [m, c[0]]` | fields by which the step is differentiated: [`by_parameters`](derivative::StepTaken::by_parameters); written out only |
 /// | `step_derivatives = second` | second derivatives of the step: [`StepHessian`](derivative::StepHessian) |
 /// | `lanes = explicit` | explicit steps of many members at once, each with fields, an input and a time of its own: [`LaneRuns`](run::LaneRuns); written out only. Sine, cosine and exponential of the force are then the branch-free ones of [`Lanes`](generated::Lanes), for one member too |
 /// | `lanes = midpoint`, `lanes = gauss` | the same of the midpoint rule and of Gauss rules; `lanes = [explicit, gauss]` for both |

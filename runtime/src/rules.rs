@@ -1,12 +1,12 @@
 //! Rules of discretisation: how L, R and f become L_d, R_d and f_d. One file each.
 
 mod by_drift;
+mod closed_form;
 mod damped_drift;
 mod displacement;
 mod fitted;
 mod fitted_trapezoidal;
 mod force_work;
-mod fused;
 mod gauss;
 mod joint;
 mod midpoint;
@@ -16,12 +16,11 @@ mod quadrature;
 mod self_adjoint;
 mod trapezoidal;
 
-pub use crate::step::SolvedForVelocity;
+pub use crate::step::{Fused, SolvedForVelocity};
 pub(crate) use damped_drift::{ByDrift, DampedDrift, Drift, modes, require_positive_definite};
 pub use displacement::{DisplacementRule, Node};
 pub use fitted::Fitted;
 pub use fitted_trapezoidal::FittedTrapezoidal;
-pub use fused::Fused;
 pub use gauss::{Gauss, StageHistory};
 pub(crate) use gauss::{SLACK, Solver, StagesInLanes, steps_until};
 pub(crate) use joint::JointRayleighRule;

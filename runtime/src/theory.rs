@@ -13,6 +13,8 @@ mod legendre;
 #[cfg(feature = "theory")]
 pub mod noether;
 #[cfg(feature = "theory")]
+mod objects;
+#[cfg(feature = "theory")]
 pub mod rayleigh;
 #[cfg(feature = "theory")]
 pub mod samples;

@@ -7,7 +7,7 @@
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::run::KeptMatrix;
-use dalembert::step::{Momenta, StepKernel};
+use dalembert::step::{Momenta, Segment, StepKernel};
 use dalembert_scenes as scenes;
 
 use super::HandDerived;
@@ -99,7 +99,8 @@ impl HandDerived<3> for Arm {
     }
 
     #[inline]
-    fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 3> {
+    fn step_kernel(&self, segment: &Segment<f64, 3>) -> StepKernel<f64, 3> {
+        let Segment { q0, v, h } = segment;
         let Self { alpha, delta, gamma, weight, generated } = self;
         let c = generated.c;
         let half = 0.5 * h;
@@ -136,7 +137,8 @@ impl HandDerived<3> for Arm {
     }
 
     #[inline]
-    fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 3> {
+    fn momenta(&self, segment: &Segment<f64, 3>) -> Momenta<f64, 3> {
+        let Segment { q0, v, h } = segment;
         let half = 0.5 * h;
         let Terms { momentum, load, .. } = self.terms(q0, v, half);
         let impulse = load * half;

@@ -2,7 +2,7 @@
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::run::VelocityHistory;
-use dalembert::step::{Momenta, StepKernel};
+use dalembert::step::{Momenta, Segment, StepKernel};
 use dalembert_scenes as scenes;
 
 use super::HandDerived;
@@ -27,8 +27,6 @@ impl From<scenes::DoublePendulum> for DoublePendulum {
     }
 }
 
-type Vector = SVector<f64, 2>;
-
 impl HandDerived<2> for DoublePendulum {
     type Generated = scenes::DoublePendulum;
     type Matrix = SMatrix<f64, 2, 2>;
@@ -39,7 +37,8 @@ impl HandDerived<2> for DoublePendulum {
     }
 
     #[inline]
-    fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 2> {
+    fn step_kernel(&self, segment: &Segment<f64, 2>) -> StepKernel<f64, 2> {
+        let Segment { q0, v, h } = segment;
         let Self { inertia: [a, b, d], weight: [e, f], generated } = self;
         let [c0, c1] = generated.c;
         let half = 0.5 * h;
@@ -67,7 +66,8 @@ impl HandDerived<2> for DoublePendulum {
     }
 
     #[inline]
-    fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 2> {
+    fn momenta(&self, segment: &Segment<f64, 2>) -> Momenta<f64, 2> {
+        let Segment { q0, v, h } = segment;
         let Self { inertia: [a, b, d], weight: [e, f], generated } = self;
         let [c0, c1] = generated.c;
         let half = 0.5 * h;

@@ -3,7 +3,7 @@
 
 use dalembert::nalgebra::SVector;
 use dalembert::run::KeptMatrix;
-use dalembert::step::{Banded, Momenta, StepKernel};
+use dalembert::step::{Banded, Momenta, Segment, StepKernel};
 use dalembert_scenes as scenes;
 
 use super::HandDerived;
@@ -48,7 +48,8 @@ impl HandDerived<N> for FputChain {
     }
 
     #[inline]
-    fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, N, Self::Matrix> {
+    fn step_kernel(&self, segment: &Segment<f64, N>) -> StepKernel<f64, N, Self::Matrix> {
+        let Segment { q0, v, h } = segment;
         let scenes::FputChain8 { beta, drag } = self.generated;
         let half = 0.5 * h;
         let square = half * half;
@@ -72,7 +73,8 @@ impl HandDerived<N> for FputChain {
     }
 
     #[inline]
-    fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, N> {
+    fn momenta(&self, segment: &Segment<f64, N>) -> Momenta<f64, N> {
+        let Segment { q0, v, h } = segment;
         let scenes::FputChain8 { beta, drag } = self.generated;
         let half = 0.5 * h;
         let force = Self::extensions(q0, v, half).map(|d| d + beta * d * d * d);

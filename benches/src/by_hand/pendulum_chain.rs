@@ -11,7 +11,7 @@
 
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::run::KeptMatrix;
-use dalembert::step::{Momenta, StepKernel};
+use dalembert::step::{Momenta, Segment, StepKernel};
 use dalembert_scenes as scenes;
 
 use super::HandDerived;
@@ -103,7 +103,8 @@ impl HandDerived<N> for PendulumChain {
     }
 
     #[inline]
-    fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, N> {
+    fn step_kernel(&self, segment: &Segment<f64, N>) -> StepKernel<f64, N> {
+        let Segment { q0, v, h } = segment;
         let half = 0.5 * h;
         let square = half * half;
         let links = self.links(q0, v, half);
@@ -143,7 +144,8 @@ impl HandDerived<N> for PendulumChain {
     }
 
     #[inline]
-    fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, N> {
+    fn momenta(&self, segment: &Segment<f64, N>) -> Momenta<f64, N> {
+        let Segment { q0, v, h } = segment;
         let half = 0.5 * h;
         let links = self.links(q0, v, half);
         let impulse = self.impulse(&links, v, half);

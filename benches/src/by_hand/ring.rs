@@ -2,7 +2,7 @@
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix};
 use dalembert::run::VelocityHistory;
-use dalembert::step::{Momenta, StepKernel};
+use dalembert::step::{Momenta, Segment, StepKernel};
 use dalembert_scenes as scenes;
 
 use super::HandDerived;
@@ -18,8 +18,6 @@ impl From<scenes::Ring> for Ring {
     }
 }
 
-type Vector = SVector<f64, 2>;
-
 impl HandDerived<2> for Ring {
     type Generated = scenes::Ring;
     type Matrix = SMatrix<f64, 2, 2>;
@@ -30,7 +28,8 @@ impl HandDerived<2> for Ring {
     }
 
     #[inline]
-    fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 2> {
+    fn step_kernel(&self, segment: &Segment<f64, 2>) -> StepKernel<f64, 2> {
+        let Segment { q0, v, h } = segment;
         let half = 0.5 * h;
         let q = q0 + v * half;
         let s = q[0] * q[0] + q[1] * q[1];
@@ -50,7 +49,8 @@ impl HandDerived<2> for Ring {
     }
 
     #[inline]
-    fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 2> {
+    fn momenta(&self, segment: &Segment<f64, 2>) -> Momenta<f64, 2> {
+        let Segment { q0, v, h } = segment;
         let half = 0.5 * h;
         let q = q0 + v * half;
         let s = q[0] * q[0] + q[1] * q[1];

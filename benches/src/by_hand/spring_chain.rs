@@ -3,7 +3,7 @@
 
 use dalembert::nalgebra::SVector;
 use dalembert::run::KeptMatrix;
-use dalembert::step::{Banded, Momenta, StepKernel};
+use dalembert::step::{Banded, Momenta, Segment, StepKernel};
 use dalembert::{Discrete, Midpoint};
 
 use super::HandDerived;
@@ -50,12 +50,8 @@ where
     }
 
     #[inline]
-    fn step_kernel(
-        &self,
-        q0: &SVector<f64, N>,
-        v: &SVector<f64, N>,
-        h: f64,
-    ) -> StepKernel<f64, N, Self::Matrix> {
+    fn step_kernel(&self, segment: &Segment<f64, N>) -> StepKernel<f64, N, Self::Matrix> {
+        let Segment { q0, v, h } = segment;
         let half = 0.5 * h;
         let [d, rate] = Self::elongations(q0, v, half);
         let constant = half * (self.friction + half * self.stiffness);
@@ -83,7 +79,8 @@ where
     }
 
     #[inline]
-    fn momenta(&self, q0: &SVector<f64, N>, v: &SVector<f64, N>, h: f64) -> Momenta<f64, N> {
+    fn momenta(&self, segment: &Segment<f64, N>) -> Momenta<f64, N> {
+        let Segment { q0, v, h } = segment;
         let half = 0.5 * h;
         let [d, rate] = Self::elongations(q0, v, half);
         let mut impulse = *v;

@@ -9,6 +9,7 @@
 mod machine;
 mod report;
 
+use dalembert::step::Segment;
 use core::hint::black_box;
 use core::panic::PanicInfo;
 use core::ptr;
@@ -82,8 +83,8 @@ where
         Line::new("part").word(name).word(part).number(counter.instructions(work)).write();
     };
     part("sin_cos", &|| _ = black_box(Elementary::sin_cos(q[0])));
-    part("step_kernel", &|| _ = black_box(system.step_kernel(&q, &v, h)));
-    part("momenta", &|| _ = black_box(system.momenta(&q, &v, h)));
+    part("step_kernel", &|| _ = black_box(system.step_kernel(&Segment { q0: q, v, h })));
+    part("momenta", &|| _ = black_box(system.momenta(&Segment { q0: q, v, h })));
     // What a failing step costs, and its stack: no state is near, and none is a number.
     for q in [S::constant(1e30), S::constant(f64::NAN)] {
         let mut start = start;

@@ -83,7 +83,7 @@ impl Exercise {
                 promise::finite(&state, h, step);
                 let (q0, q1) = (&state.q, &step.state.q);
                 let _ = by.certificate(&state, step);
-                let _ = by.linearization(q0, q1);
+                let _ = by.segment(q0, q1).and_then(|segment| segment.linearized()?.by_state());
                 let _ = PhaseMatrix::to_velocity(system, q0, &step.velocity);
                 let _ = by.step_configurations(q0, q1);
                 if let Ok(segment) = by.segment(q0, q1) {

@@ -7,7 +7,7 @@
 //! unit, and it is held to the largest residual and floor.
 
 use dalembert::nalgebra::{SVector, zero};
-use dalembert::step::{NewtonMatrix, Step};
+use dalembert::step::{NewtonMatrix, Segment, Step};
 use dalembert::system::Scalar;
 use dalembert::{Discrete, State};
 
@@ -47,14 +47,14 @@ pub fn solved<L, R, const N: usize>(
     L: Discrete<R, N>,
 {
     let (q, v) = (&state.q, &step.velocity);
-    let p0 = |q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>| system.momenta(q, v, h).p0;
+    let p0 = |q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>| system.momenta(&Segment { q0: *q, v: *v, h }).p0;
     let residual = (p0(q, v) - state.p).abs();
     assert!(
         residual.iter().any(|entry| *entry == step.report.residual),
         "{residual} is not that of {step:?}"
     );
     let epsilon = L::Scalar::EPSILON.widen();
-    let matrix = system.step_kernel(q, v, h).matrix;
+    let matrix = system.step_kernel(&Segment { q0: *q, v: *v, h }).matrix;
     let value = p0(q, v);
     let mut rounding: SVector<L::Scalar, N> = zero();
     for i in 0..N {

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::rules::{DisplacementRule, Fused};
 use dalembert::run::VelocityHistory;
-use dalembert::step::{Momenta, StepKernel};
+use dalembert::step::{Momenta, Segment, StepKernel};
 use dalembert::system::{ActingForce, Derivatives};
 use dalembert::{Lagrangian, Midpoint, rayleigh_system};
 
@@ -121,11 +121,11 @@ impl Fused<Midpoint, 1> for Counted {
     type Matrix = SMatrix<f64, 1, 1>;
     type Memory = VelocityHistory<f64, 1>;
 
-    fn step_kernel(&self, q0: &SVector<f64, 1>, v: &SVector<f64, 1>, h: f64) -> StepKernel<f64, 1> {
-        Midpoint::lagrangian_kernel(self, q0, v, h)
+    fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {
+        Midpoint::lagrangian_kernel(self, segment)
     }
 
-    fn momenta(&self, q0: &SVector<f64, 1>, v: &SVector<f64, 1>, h: f64) -> Momenta<f64, 1> {
-        Midpoint::lagrangian_momenta(self, q0, v, h)
+    fn momenta(&self, segment: &Segment<f64, 1>) -> Momenta<f64, 1> {
+        Midpoint::lagrangian_momenta(self, segment)
     }
 }

@@ -228,8 +228,8 @@ fn stubs(
                 impl ::dalembert::generated::Fused<::dalembert::generated::#rules, #n> for #name {
                     type Matrix = ::dalembert::nalgebra::SMatrix<#scalar, #n, #n>;
                     type Memory = ::dalembert::generated::VelocityHistory<#scalar, #n>;
-                    fn step_kernel(&self, _: #vector, _: #vector, _: #scalar) -> ::dalembert::generated::StepKernel<#scalar, #n> { ::core::unreachable!() }
-                    fn momenta(&self, _: #vector, _: #vector, _: #scalar) -> ::dalembert::generated::Momenta<#scalar, #n> { ::core::unreachable!() }
+                    fn step_kernel(&self, _: &::dalembert::generated::Segment<#scalar, #n>) -> ::dalembert::generated::StepKernel<#scalar, #n> { ::core::unreachable!() }
+                    fn momenta(&self, _: &::dalembert::generated::Segment<#scalar, #n>) -> ::dalembert::generated::Momenta<#scalar, #n> { ::core::unreachable!() }
                 }
             )*
         };

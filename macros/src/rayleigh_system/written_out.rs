@@ -29,7 +29,7 @@ use super::rules::Points;
 use super::structure::{self, Differentiated, Findings, Structure, Terms};
 use super::write::item::{are_plain, as_written};
 use super::write::{self, EngineFunctions, Kernel, view};
-use body::{Shape, matrix, parameter, unused};
+use body::{Shape, matrix, of_segment, parameter, unused};
 pub use stages::CONDITIONAL;
 
 /// The whole expansion: the user's item as it stands, and the system with its derivatives.

@@ -314,8 +314,8 @@ where
         start: &State<f64, N>,
     ) -> Result<StepDerivatives<N>, StepError> {
         let system = S::view(fields, given.inputs, given.time);
-        let (step, by) = system.by(self.0, h).linearized_step(start)?;
-        Ok(StepDerivatives { step, a: matrix_rows(&by.a), b: None, by_parameters: None })
+        let (step, a) = system.by(self.0, h).linearized_step(start)?;
+        Ok(StepDerivatives { step, a: matrix_rows(&a), b: None, by_parameters: None })
     }
 }
 

@@ -3,7 +3,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::numbers::{NewtonMatrix, Scalar, linear};
+use crate::numbers::{Scalar, linear};
 use crate::step::{Discrete, Discretised, EquationAt, State, Step, StepError};
 
 /// Condition, remaining correction and branch of a step, by its Newton matrix ∂p0/∂v̄; see
@@ -49,8 +49,8 @@ impl<S: Scalar> Certificate<S> {
     where
         L: Discrete<R, N, Scalar = S>,
     {
-        let EquationAt { kernel, mass, on_the_branch_of_the_flow } = system.equation_at(state, step, h)?;
-        let matrix = kernel.matrix.dense();
+        let EquationAt { p0, matrix, mass, on_the_branch_of_the_flow } =
+            system.equation_at(state, step, h)?;
         let unit = SVector::<S, N>::from_fn(|i, _| {
             let inertia = mass[(i, i)].abs();
             if inertia > S::zero() { S::one() / inertia.sqrt() } else { S::one() }
@@ -59,7 +59,7 @@ impl<S: Scalar> Certificate<S> {
         let infinite = S::one() / S::zero();
         let (condition, correction) = match linear::inverse(&scaled) {
             Ok(inverse) => {
-                let residual = (kernel.p0 - state.p).component_mul(&unit);
+                let residual = (p0 - state.p).component_mul(&unit);
                 (norm(&scaled) * norm(&inverse), (inverse * residual).norm())
             }
             Err(_) => (infinite, infinite),

@@ -5,17 +5,17 @@ use nalgebra::SVector;
 
 use super::{ByDrift, DampedDrift, Fitted, FittedTrapezoidal};
 use crate::step::{
-    BoundedFlow, BoundedStep, ClosedForm, Discrete, Flow, Linearization, State, Step, StepError, StepWith,
+    BoundedFlow, BoundedStep, ByFormula, ClosedForm, Flow, PhaseMatrix, State, Step, StepError, step_matrix,
 };
 use crate::system::Rayleigh;
 
 macro_rules! flow {
     ($($rule:ident)*) => {$(
-        impl ClosedForm for $rule {}
+        impl ByFormula for $rule {}
 
         impl<L, const N: usize> Flow<$rule, N> for L
         where
-            L: Discrete<$rule, N> + Rayleigh<N> + ?Sized,
+            L: ClosedForm<$rule, N> + Rayleigh<N> + ?Sized,
         {
             type RunMemory = L::Memory;
 
@@ -34,15 +34,15 @@ macro_rules! flow {
                 state: &State<L::Scalar, N>,
                 h: L::Scalar,
                 guess: Option<&SVector<L::Scalar, N>>,
-            ) -> Result<StepWith<L::Scalar, N, Linearization<L::Scalar, N>>, StepError> {
-                let step = self.step(state, h, guess)?;
-                Ok((step, self.linearization(&state.q, &step.state.q, h)?))
+            ) -> Result<(Step<L::Scalar, N>, PhaseMatrix<L::Scalar, N>), StepError> {
+                let step = Flow::<$rule, N>::step(self, state, h, guess)?;
+                Ok((step, step_matrix::<L, $rule, N>(self, state, &step, h)?))
             }
         }
 
         impl<L, const N: usize> BoundedFlow<$rule, N> for L
         where
-            L: Discrete<$rule, N> + Rayleigh<N> + ?Sized,
+            L: ClosedForm<$rule, N> + Rayleigh<N> + ?Sized,
         {
             fn step_within(
                 &self,

@@ -10,13 +10,15 @@
 
 use core::array;
 use core::cmp::Ordering;
+use core::marker::PhantomData;
 
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::step::cause::cause_of;
+use crate::step::equation::{Equation, StepEquation};
 use crate::step::{
-    BoundedStep, Discrete, Momenta, Quantity, State, Step, StepError, StepKernel, newton::Equation, step_by,
+    BoundedStep, Fused, Momenta, Quantity, Segment, State, Step, StepError, StepKernel, step_by,
     step_within_by,
 };
 use crate::system::{GeneratedDiffers, Lagrangian, Rayleigh};
@@ -133,39 +135,28 @@ pub(crate) trait ByDrift: Sized {
     fn kernel<L: Rayleigh<N> + ?Sized, const N: usize>(
         drift: &DampedDrift<L::Scalar, N>,
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> StepKernel<L::Scalar, N>;
 
     /// p0 and p1.
     fn momenta<L: Rayleigh<N> + ?Sized, const N: usize>(
         drift: &DampedDrift<L::Scalar, N>,
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Momenta<L::Scalar, N>;
 
     /// The step from `state`.
     #[inline]
-    fn step_by<L: Discrete<Self, N> + Rayleigh<N> + ?Sized, const N: usize>(
+    fn step_by<L: Fused<Self, N> + Rayleigh<N> + ?Sized, const N: usize>(
         drift: &DampedDrift<L::Scalar, N>,
         system: &L,
         state: &State<L::Scalar, N>,
         h: L::Scalar,
         guess: Option<&SVector<L::Scalar, N>>,
     ) -> Result<Step<L::Scalar, N>, StepError> {
-        // With the drift of the whole step, also in parts of it.
-        let kernel = |q0: &_, v: &_, h| Self::kernel(drift, system, q0, v, h);
-        let momenta = |q0: &_, v: &_, h| Self::momenta(drift, system, q0, v, h);
-        // Under damping that excites, what is left of M in p0 is below any share of it.
-        let inertia = |_: &_, _: &_| drift.before;
-        let cancelling = |q0: &_, v: &_, h| system.cancelling_terms(q0, v, h);
-        let cause = |q0: &_, v: &_, h| Self::cause(system, q0, v, h);
-        let equation = (kernel, momenta, inertia, cancelling, cause);
-        let step = step_by(system, Self::EQUATION, equation, state, h, guess)
-            .map_err(|error| of_mass(system, &state.q, error));
+        let equation = Drifting::<L, Self, N> { drift, system, rule: PhantomData };
+        let step =
+            step_by(system, &equation, state, h, guess).map_err(|error| of_mass(system, &state.q, error));
         if cfg!(debug_assertions)
             && let Ok(step) = &step
         {
@@ -192,12 +183,10 @@ pub(crate) trait ByDrift: Sized {
     #[cold]
     fn cause<L: Lagrangian<N> + ?Sized, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Option<StepError> {
         let at = |share: f64| {
-            system.without_derivative(&(q0 + v * (h * L::Scalar::constant(share))), &nalgebra::zero())
+            system.without_derivative(&segment.at(L::Scalar::constant(share)), &nalgebra::zero())
         };
         if cfg!(feature = "std") {
             cause_of(system, at(0.0).or_else(|| Self::NODES.iter().find_map(|&share| at(share))))
@@ -207,7 +196,7 @@ pub(crate) trait ByDrift: Sized {
     }
 
     /// The step by a bounded number of iterations.
-    fn step_within_by<L: Rayleigh<N> + ?Sized, const N: usize>(
+    fn step_within_by<L: Fused<Self, N> + Rayleigh<N> + ?Sized, const N: usize>(
         system: &L,
         state: &State<L::Scalar, N>,
         h: L::Scalar,
@@ -215,10 +204,8 @@ pub(crate) trait ByDrift: Sized {
         iterations: u32,
     ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
         let drift = DampedDrift::of(system, &state.q, h);
-        let kernel = |q0: &_, v: &_| Self::kernel(&drift, system, q0, v, h);
-        let momenta = |q0: &_, v: &_| Self::momenta(&drift, system, q0, v, h);
-        let equation = (kernel, momenta, |q0: &_, v: &_| Self::cause(system, q0, v, h));
-        let bounded = step_within_by(system, Self::EQUATION, equation, state, h, guess, iterations)
+        let equation = Drifting::<L, Self, N> { drift: &drift, system, rule: PhantomData };
+        let bounded = step_within_by(system, &equation, state, h, guess, iterations)
             .map_err(|error| of_mass(system, &state.q, error));
         if cfg!(debug_assertions)
             && let Ok(bounded) = &bounded
@@ -226,6 +213,52 @@ pub(crate) trait ByDrift: Sized {
             Self::verify(system, state, &bounded.step, h)?;
         }
         bounded
+    }
+}
+
+/// The equation of a step by a fitted rule, with the drift of the whole step, also in parts of it.
+struct Drifting<'a, L: Rayleigh<N> + ?Sized, R, const N: usize> {
+    drift: &'a DampedDrift<L::Scalar, N>,
+    system: &'a L,
+    rule: PhantomData<fn() -> R>,
+}
+
+impl<L, R, const N: usize> StepEquation<L::Scalar, N> for Drifting<'_, L, R, N>
+where
+    L: Fused<R, N> + Rayleigh<N> + ?Sized,
+    R: ByDrift,
+{
+    type Matrix = SMatrix<L::Scalar, N, N>;
+
+    #[inline]
+    fn kernel(&self, segment: &Segment<L::Scalar, N>) -> StepKernel<L::Scalar, N> {
+        R::kernel(self.drift, self.system, segment)
+    }
+
+    #[inline]
+    fn momenta(&self, segment: &Segment<L::Scalar, N>) -> Momenta<L::Scalar, N> {
+        R::momenta(self.drift, self.system, segment)
+    }
+
+    /// Under damping that excites, what is left of M in p0 is below any share of it.
+    #[inline]
+    fn inertia(&self, _: &SVector<L::Scalar, N>, _: &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N> {
+        self.drift.before
+    }
+
+    #[inline]
+    fn cancelling(&self, segment: &Segment<L::Scalar, N>) -> SVector<L::Scalar, N> {
+        self.system.cancelling_terms(segment)
+    }
+
+    #[inline]
+    fn kind(&self) -> Equation {
+        R::EQUATION
+    }
+
+    #[inline]
+    fn cause(&self, segment: &Segment<L::Scalar, N>) -> Option<StepError> {
+        R::cause(self.system, segment)
     }
 }
 

@@ -8,12 +8,12 @@
 //!
 //! Everything else is the chain rule: varying q0 moves (qᵢ, v̄) by (1 − cᵢ, −1/h), varying q1 by (cᵢ, 1/h).
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use super::parts::Parts;
 use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Hessian, Scalar};
-use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, MomentaBy, StepKernel};
-use crate::system::{ActingForce, Driven, Force, Lagrangian, Parameters, Rayleigh, SecondOrder};
+use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, MomentaBy, Segment, StepKernel};
+use crate::system::{ActingForce, Force, Lagrangian, Parameters, Rayleigh, SecondOrder};
 
 /// A node of the quadrature over one segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,31 +24,61 @@ pub struct Node {
     pub weight: f64,
 }
 
-/// One node on one segment: the point and what varying q0 and q1 does to it.
-struct Sample<S, const N: usize> {
+/// One node on one segment.
+struct Sample<'s, S, const N: usize> {
+    segment: &'s Segment<S, N>,
     weight: S,
     position: S,
     q: SVector<S, N>,
-    /// Variation of q0, times −h where the unknown is v̄.
-    minus: Direction<S>,
-    /// Variation of q1, times h where the unknown is v̄.
-    plus: Direction<S>,
 }
 
-impl<S: Scalar, const N: usize> Sample<S, N> {
-    /// The time of the node from the start of a step of size `h`.
+impl<S: Scalar, const N: usize> Sample<'_, S, N> {
+    /// The time of the node from the start of the step.
     #[inline]
-    fn time(&self, h: S) -> S {
-        self.position * h
+    fn time(&self) -> S {
+        self.position * self.segment.h
+    }
+
+    /// The change of (q, v̄) with q0.
+    #[inline]
+    fn by_q0(&self) -> Direction<S> {
+        Direction { first: S::one() - self.position, second: -S::one() / self.segment.h }
+    }
+
+    /// The change of (q, v̄) with q1.
+    #[inline]
+    fn by_q1(&self) -> Direction<S> {
+        Direction { first: self.position, second: S::one() / self.segment.h }
+    }
+
+    /// [`by_q0`](Self::by_q0) times −h, so that no division is left.
+    #[inline]
+    fn minus(&self) -> Direction<S> {
+        Direction { first: (self.position - S::one()) * self.segment.h, second: S::one() }
+    }
+
+    /// [`by_q1`](Self::by_q1) times h.
+    #[inline]
+    fn plus(&self) -> Direction<S> {
+        Direction { first: self.position * self.segment.h, second: S::one() }
     }
 
     /// Second derivatives by q0 and q1 from those by (q, v) at the node.
     #[inline]
-    fn on_segment<const M: usize>(&self, by_node: &Hessian<S, N, M>, h: S) -> Hessian<S, N, M> {
-        let by_q0 = Direction { first: S::one() - self.position, second: -S::one() / h };
-        let by_q1 = Direction { first: self.position, second: S::one() / h };
-        by_node.pull_back(by_q0, by_q1)
+    fn on_segment<const M: usize>(&self, by_node: &Hessian<S, N, M>) -> Hessian<S, N, M> {
+        by_node.pull_back(self.by_q0(), self.by_q1())
     }
+}
+
+/// The nodes of a rule on a segment.
+#[inline]
+fn nodes<R: DisplacementRule, S: Scalar, const N: usize>(
+    segment: &Segment<S, N>,
+) -> impl Iterator<Item = Sample<'_, S, N>> {
+    R::NODES.iter().map(move |node| {
+        let position = S::constant(node.position);
+        Sample { segment, weight: S::constant(node.weight), position, q: segment.at(position) }
+    })
 }
 
 /// A rule given by its [`NODES`](Self::NODES); the discrete objects follow by formula.
@@ -62,30 +92,24 @@ pub trait DisplacementRule: Copy {
     #[inline]
     fn discrete_lagrangian<L: Lagrangian<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> L::Scalar {
-        let v = (q1 - q0) / h;
-        on_configurations::<Self, _, N>(q0, q1, h).fold(nalgebra::zero(), |sum: L::Scalar, node| {
-            sum + system.later(node.time(h), |system| system.lagrangian(&node.q, &v)) * node.weight
-        }) * h
+        nodes::<Self, _, N>(segment).fold(nalgebra::zero(), |sum: L::Scalar, node| {
+            sum + system.later(node.time(), |system| system.lagrangian(&node.q, &segment.v)) * node.weight
+        }) * segment.h
     }
 
     /// L_d with its derivatives by q0 and q1.
     #[inline]
     fn discrete_lagrangian_derivatives<L: Lagrangian<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Derivatives<L::Scalar, N> {
-        let v = (q1 - q0) / h;
-        on_configurations::<Self, _, N>(q0, q1, h).fold(Derivatives::zero(), |sum, node| {
+        nodes::<Self, _, N>(segment).fold(Derivatives::zero(), |sum, node| {
             sum + system
-                .later(node.time(h), |system| system.lagrangian_derivatives(&node.q, &v))
-                .pull_back(node.minus, node.plus)
-                * (h * node.weight)
+                .later(node.time(), |system| system.lagrangian_derivatives(&node.q, &segment.v))
+                .pull_back(node.by_q0(), node.by_q1())
+                * (segment.h * node.weight)
         })
     }
 
@@ -93,30 +117,24 @@ pub trait DisplacementRule: Copy {
     #[inline]
     fn discrete_rayleigh<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> L::Scalar {
-        let v = (q1 - q0) / h;
-        on_configurations::<Self, _, N>(q0, q1, h).fold(nalgebra::zero(), |sum: L::Scalar, node| {
-            sum + system.later(node.time(h), |system| system.rayleigh(&node.q, &v)) * node.weight
-        }) * (h * h * L::Scalar::constant(0.5))
+        nodes::<Self, _, N>(segment).fold(nalgebra::zero(), |sum: L::Scalar, node| {
+            sum + system.later(node.time(), |system| system.rayleigh(&node.q, &segment.v)) * node.weight
+        }) * (segment.h * segment.h * L::Scalar::constant(0.5))
     }
 
     /// R_d with its derivatives by q0 and q1.
     #[inline]
     fn discrete_rayleigh_derivatives<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Derivatives<L::Scalar, N> {
-        let v = (q1 - q0) / h;
-        let half_square = h * h * L::Scalar::constant(0.5);
-        on_configurations::<Self, _, N>(q0, q1, h).fold(Derivatives::zero(), |sum, node| {
+        let half_square = segment.h * segment.h * L::Scalar::constant(0.5);
+        nodes::<Self, _, N>(segment).fold(Derivatives::zero(), |sum, node| {
             sum + system
-                .later(node.time(h), |system| system.rayleigh_derivatives(&node.q, &v))
-                .pull_back(node.minus, node.plus)
+                .later(node.time(), |system| system.rayleigh_derivatives(&node.q, &segment.v))
+                .pull_back(node.by_q0(), node.by_q1())
                 * (half_square * node.weight)
         })
     }
@@ -125,16 +143,16 @@ pub trait DisplacementRule: Copy {
     #[inline]
     fn rayleigh_force<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForce<L::Scalar, N> {
-        let v = (q1 - q0) / h;
-        let half_square = h * h * L::Scalar::constant(0.5);
-        on_configurations::<Self, _, N>(q0, q1, h).fold(DiscreteForce::zero(), |sum, node| {
-            let r = system.later(node.time(h), |system| system.rayleigh_gradient(&node.q, &v));
+        let half_square = segment.h * segment.h * L::Scalar::constant(0.5);
+        nodes::<Self, _, N>(segment).fold(DiscreteForce::zero(), |sum, node| {
+            let r = system.later(node.time(), |system| system.rayleigh_gradient(&node.q, &segment.v));
             let weight = half_square * node.weight;
-            sum + DiscreteForce { minus: r.along(node.minus) * weight, plus: r.along(node.plus) * -weight }
+            sum + DiscreteForce {
+                minus: r.along(node.by_q0()) * weight,
+                plus: r.along(node.by_q1()) * -weight,
+            }
         })
     }
 
@@ -142,24 +160,20 @@ pub trait DisplacementRule: Copy {
     #[inline]
     fn rayleigh_force_derivatives<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForceDerivatives<L::Scalar, N> {
-        DiscreteForceDerivatives::of_rayleigh(&Self::discrete_rayleigh_derivatives(system, q0, q1, h))
+        DiscreteForceDerivatives::of_rayleigh(&Self::discrete_rayleigh_derivatives(system, segment))
     }
 
     /// f_d of the general force: f_d⁻ = h Σ bᵢ (1 − cᵢ) f(qᵢ, v̄), f_d⁺ = h Σ bᵢ cᵢ f(qᵢ, v̄).
     #[inline]
     fn general_force<L: Force<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForce<L::Scalar, N> {
-        let v = (q1 - q0) / h;
-        on_configurations::<Self, _, N>(q0, q1, h).fold(DiscreteForce::zero(), |sum, node| {
-            let f = system.later(node.time(h), |system| system.force(&node.q, &v)) * (h * node.weight);
+        nodes::<Self, _, N>(segment).fold(DiscreteForce::zero(), |sum, node| {
+            let f = system.later(node.time(), |system| system.force(&node.q, &segment.v))
+                * (segment.h * node.weight);
             sum + DiscreteForce {
                 minus: f * (L::Scalar::constant(1.0) - node.position),
                 plus: f * node.position,
@@ -171,16 +185,13 @@ pub trait DisplacementRule: Copy {
     #[inline]
     fn general_force_derivatives<L: Force<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForceDerivatives<L::Scalar, N> {
-        let v = (q1 - q0) / h;
-        on_configurations::<Self, _, N>(q0, q1, h).fold(DiscreteForceDerivatives::zero(), |sum, node| {
-            let f = system.later(node.time(h), |system| system.force_derivatives(&node.q, &v));
+        nodes::<Self, _, N>(segment).fold(DiscreteForceDerivatives::zero(), |sum, node| {
+            let f = system.later(node.time(), |system| system.force_derivatives(&node.q, &segment.v));
             let pulled =
-                CovectorDerivatives { value: f.value, d1: f.along(node.minus), d2: f.along(node.plus) }
-                    * (h * node.weight);
+                CovectorDerivatives { value: f.value, d1: f.along(node.by_q0()), d2: f.along(node.by_q1()) }
+                    * (segment.h * node.weight);
             sum + DiscreteForceDerivatives {
                 minus: pulled * (L::Scalar::constant(1.0) - node.position),
                 plus: pulled * node.position,
@@ -191,16 +202,14 @@ pub trait DisplacementRule: Copy {
     /// f_d, of the Rayleigh function and the general force, whichever the system has.
     fn discrete_force<L: ActingForce<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForce<L::Scalar, N> {
         let mut force = DiscreteForce::zero();
         if L::HAS_RAYLEIGH {
-            force = force + Self::rayleigh_force(&Parts::of(system), q0, q1, h);
+            force = force + Self::rayleigh_force(&Parts::of(system), segment);
         }
         if L::HAS_FORCE {
-            force = force + Self::general_force(&Parts::of(system), q0, q1, h);
+            force = force + Self::general_force(&Parts::of(system), segment);
         }
         force
     }
@@ -208,16 +217,14 @@ pub trait DisplacementRule: Copy {
     /// f_d with its derivatives by q0 and q1, of whichever the system has.
     fn discrete_force_derivatives<L: ActingForce<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForceDerivatives<L::Scalar, N> {
         let mut force = DiscreteForceDerivatives::zero();
         if L::HAS_RAYLEIGH {
-            force = force + Self::rayleigh_force_derivatives(&Parts::of(system), q0, q1, h);
+            force = force + Self::rayleigh_force_derivatives(&Parts::of(system), segment);
         }
         if L::HAS_FORCE {
-            force = force + Self::general_force_derivatives(&Parts::of(system), q0, q1, h);
+            force = force + Self::general_force_derivatives(&Parts::of(system), segment);
         }
         force
     }
@@ -226,13 +233,11 @@ pub trait DisplacementRule: Copy {
     #[inline]
     fn lagrangian_kernel<L: Lagrangian<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> StepKernel<L::Scalar, N> {
-        on_velocity::<Self, _, N>(q0, v, h).fold(StepKernel::zero(), |sum, node| {
-            let l = system.later(node.time(h), |system| {
-                system.lagrangian_variations(&node.q, v, node.minus, node.plus)
+        nodes::<Self, _, N>(segment).fold(StepKernel::zero(), |sum, node| {
+            let l = system.later(node.time(), |system| {
+                system.lagrangian_variations(&node.q, &segment.v, node.minus(), node.plus())
             }) * node.weight;
             sum + StepKernel { p0: l.minus, matrix: l.mixed }
         })
@@ -242,15 +247,13 @@ pub trait DisplacementRule: Copy {
     #[inline]
     fn rayleigh_kernel<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> StepKernel<L::Scalar, N> {
-        let half = h * L::Scalar::constant(0.5);
-        on_velocity::<Self, _, N>(q0, v, h).fold(StepKernel::zero(), |sum, node| {
-            let r = system
-                .later(node.time(h), |system| system.rayleigh_variations(&node.q, v, node.minus, node.plus))
-                * (half * node.weight);
+        let half = segment.h * L::Scalar::constant(0.5);
+        nodes::<Self, _, N>(segment).fold(StepKernel::zero(), |sum, node| {
+            let r = system.later(node.time(), |system| {
+                system.rayleigh_variations(&node.q, &segment.v, node.minus(), node.plus())
+            }) * (half * node.weight);
             sum + StepKernel { p0: r.minus, matrix: r.mixed }
         })
     }
@@ -259,14 +262,12 @@ pub trait DisplacementRule: Copy {
     #[inline]
     fn force_kernel<L: Force<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> StepKernel<L::Scalar, N> {
-        on_velocity::<Self, _, N>(q0, v, h).fold(StepKernel::zero(), |sum, node| {
+        nodes::<Self, _, N>(segment).fold(StepKernel::zero(), |sum, node| {
             let (f, by_v) =
-                system.later(node.time(h), |system| system.force_variation(&node.q, v, node.plus));
-            let weight = h * node.weight * (node.position - L::Scalar::constant(1.0));
+                system.later(node.time(), |system| system.force_variation(&node.q, &segment.v, node.plus()));
+            let weight = segment.h * node.weight * (node.position - L::Scalar::constant(1.0));
             sum + StepKernel { p0: f * weight, matrix: by_v * weight }
         })
     }
@@ -275,13 +276,11 @@ pub trait DisplacementRule: Copy {
     #[inline]
     fn lagrangian_momenta<L: Lagrangian<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Momenta<L::Scalar, N> {
-        on_velocity::<Self, _, N>(q0, v, h).fold(Momenta::zero(), |sum, node| {
-            let l = system.later(node.time(h), |system| system.lagrangian_gradient(&node.q, v));
-            sum + Momenta { p0: l.along(node.minus) * node.weight, p1: l.along(node.plus) * node.weight }
+        nodes::<Self, _, N>(segment).fold(Momenta::zero(), |sum, node| {
+            let l = system.later(node.time(), |system| system.lagrangian_gradient(&node.q, &segment.v));
+            sum + Momenta { p0: l.along(node.minus()) * node.weight, p1: l.along(node.plus()) * node.weight }
         })
     }
 
@@ -289,13 +288,12 @@ pub trait DisplacementRule: Copy {
     #[cold]
     fn cancelling_terms<L: ActingForce<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> SVector<L::Scalar, N> {
-        on_velocity::<Self, _, N>(q0, v, h).fold(nalgebra::zero(), |sum: SVector<L::Scalar, N>, node| {
-            let terms = system.later(node.time(h), |system| system.cancelling_terms(&node.q, v));
-            sum + (terms.momentum + terms.rate * nalgebra::ComplexField::abs(node.minus.first)) * node.weight
+        nodes::<Self, _, N>(segment).fold(nalgebra::zero(), |sum: SVector<L::Scalar, N>, node| {
+            let terms = system.later(node.time(), |system| system.cancelling_terms(&node.q, &segment.v));
+            sum + (terms.momentum + terms.rate * nalgebra::ComplexField::abs(node.minus().first))
+                * node.weight
         })
     }
 
@@ -303,16 +301,14 @@ pub trait DisplacementRule: Copy {
     #[inline]
     fn rayleigh_momenta<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Momenta<L::Scalar, N> {
-        let half = h * L::Scalar::constant(0.5);
-        on_velocity::<Self, _, N>(q0, v, h).fold(Momenta::zero(), |sum, node| {
-            let r = system.later(node.time(h), |system| system.rayleigh_gradient(&node.q, v));
+        let half = segment.h * L::Scalar::constant(0.5);
+        nodes::<Self, _, N>(segment).fold(Momenta::zero(), |sum, node| {
+            let r = system.later(node.time(), |system| system.rayleigh_gradient(&node.q, &segment.v));
             sum + Momenta {
-                p0: r.along(node.minus) * (half * node.weight),
-                p1: r.along(node.plus) * (-half * node.weight),
+                p0: r.along(node.minus()) * (half * node.weight),
+                p1: r.along(node.plus()) * (-half * node.weight),
             }
         })
     }
@@ -321,27 +317,25 @@ pub trait DisplacementRule: Copy {
     #[inline]
     fn force_momenta<L: Force<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Momenta<L::Scalar, N> {
-        on_velocity::<Self, _, N>(q0, v, h).fold(Momenta::zero(), |sum, node| {
-            let f = system.later(node.time(h), |system| system.force(&node.q, v)) * (h * node.weight);
+        nodes::<Self, _, N>(segment).fold(Momenta::zero(), |sum, node| {
+            let f = system.later(node.time(), |system| system.force(&node.q, &segment.v))
+                * (segment.h * node.weight);
             sum + Momenta { p0: f * (node.position - L::Scalar::constant(1.0)), p1: f * node.position }
         })
     }
 
-    /// ∂p0/∂u and ∂p1/∂u, of the general force: −∂f_d⁻/∂u and ∂f_d⁺/∂u.
+    /// ∂p0/∂u and ∂p1/∂u, of the general force: −∂f_d⁻/∂u and ∂f_d⁺/∂u, from its `slope` ∂f/∂u.
     #[inline]
-    fn force_by_input<L: Driven<N, M>, const N: usize, const M: usize>(
+    fn force_by_input<L: Lagrangian<N>, const N: usize, const M: usize>(
+        segment: &Segment<L::Scalar, N>,
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        slope: impl Fn(&L, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, M>,
     ) -> MomentaBy<L::Scalar, N, M> {
-        on_velocity::<Self, _, N>(q0, v, h).fold(MomentaBy::zero(), |sum, node| {
-            let f =
-                system.later(node.time(h), |system| system.force_by_input(&node.q, v)) * (h * node.weight);
+        nodes::<Self, _, N>(segment).fold(MomentaBy::zero(), |sum, node| {
+            let f = system.later(node.time(), |system| slope(system, &node.q, &segment.v))
+                * (segment.h * node.weight);
             sum + MomentaBy { p0: f * (node.position - L::Scalar::constant(1.0)), p1: f * node.position }
         })
     }
@@ -350,13 +344,14 @@ pub trait DisplacementRule: Copy {
     #[inline]
     fn lagrangian_by_parameters<L: Parameters<N, P>, const N: usize, const P: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> MomentaBy<L::Scalar, N, P> {
-        on_velocity::<Self, _, N>(q0, v, h).fold(MomentaBy::zero(), |sum, node| {
-            let l = system.later(node.time(h), |system| system.lagrangian_by_parameters(&node.q, v));
-            sum + MomentaBy { p0: l.along(node.minus) * node.weight, p1: l.along(node.plus) * node.weight }
+        nodes::<Self, _, N>(segment).fold(MomentaBy::zero(), |sum, node| {
+            let l = system.later(node.time(), |system| system.lagrangian_by_parameters(&node.q, &segment.v));
+            sum + MomentaBy {
+                p0: l.along(node.minus()) * node.weight,
+                p1: l.along(node.plus()) * node.weight,
+            }
         })
     }
 
@@ -364,15 +359,13 @@ pub trait DisplacementRule: Copy {
     #[inline]
     fn rayleigh_by_parameters<L: Parameters<N, P>, const N: usize, const P: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> MomentaBy<L::Scalar, N, P> {
-        let half = h * L::Scalar::constant(0.5);
-        on_velocity::<Self, _, N>(q0, v, h).fold(MomentaBy::zero(), |sum, node| {
-            let r = system.later(node.time(h), |system| system.rayleigh_by_parameters(&node.q, v));
+        let half = segment.h * L::Scalar::constant(0.5);
+        nodes::<Self, _, N>(segment).fold(MomentaBy::zero(), |sum, node| {
+            let r = system.later(node.time(), |system| system.rayleigh_by_parameters(&node.q, &segment.v));
             let weight = half * node.weight;
-            sum + MomentaBy { p0: r.along(node.minus) * weight, p1: r.along(node.plus) * -weight }
+            sum + MomentaBy { p0: r.along(node.minus()) * weight, p1: r.along(node.plus()) * -weight }
         })
     }
 
@@ -380,13 +373,11 @@ pub trait DisplacementRule: Copy {
     #[inline]
     fn force_by_parameters<L: Parameters<N, P>, const N: usize, const P: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> MomentaBy<L::Scalar, N, P> {
-        on_velocity::<Self, _, N>(q0, v, h).fold(MomentaBy::zero(), |sum, node| {
-            let f = system.later(node.time(h), |system| system.force_by_parameters(&node.q, v))
-                * (h * node.weight);
+        nodes::<Self, _, N>(segment).fold(MomentaBy::zero(), |sum, node| {
+            let f = system.later(node.time(), |system| system.force_by_parameters(&node.q, &segment.v))
+                * (segment.h * node.weight);
             sum + MomentaBy { p0: f * (node.position - L::Scalar::constant(1.0)), p1: f * node.position }
         })
     }
@@ -395,15 +386,14 @@ pub trait DisplacementRule: Copy {
     #[inline]
     fn lagrangian_along<L: SecondOrder<N, M>, const N: usize, const M: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
         [a, b]: [&SVector<L::Scalar, N>; 2],
     ) -> Hessian<L::Scalar, N, M> {
-        on_velocity::<Self, _, N>(q0, v, h).fold(Hessian::zero(), |sum, node| {
-            let (by_q, by_v) = (a * node.minus.first + b * node.plus.first, a + b);
-            let l = system.later(node.time(h), |system| system.lagrangian_along(&node.q, v, &by_q, &by_v));
-            sum + node.on_segment(&l, h) * node.weight
+        nodes::<Self, _, N>(segment).fold(Hessian::zero(), |sum, node| {
+            let (by_q, by_v) = (a * node.minus().first + b * node.plus().first, a + b);
+            let l = system
+                .later(node.time(), |system| system.lagrangian_along(&node.q, &segment.v, &by_q, &by_v));
+            sum + node.on_segment(&l) * node.weight
         })
     }
 
@@ -411,16 +401,15 @@ pub trait DisplacementRule: Copy {
     #[inline]
     fn rayleigh_along<L: SecondOrder<N, M>, const N: usize, const M: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
         [a, b]: [&SVector<L::Scalar, N>; 2],
     ) -> Hessian<L::Scalar, N, M> {
-        let half = h * L::Scalar::constant(0.5);
-        on_velocity::<Self, _, N>(q0, v, h).fold(Hessian::zero(), |sum, node| {
-            let (by_q, by_v) = (a * node.minus.first - b * node.plus.first, a - b);
-            let r = system.later(node.time(h), |system| system.rayleigh_along(&node.q, v, &by_q, &by_v));
-            sum + node.on_segment(&r, h) * (half * node.weight)
+        let half = segment.h * L::Scalar::constant(0.5);
+        nodes::<Self, _, N>(segment).fold(Hessian::zero(), |sum, node| {
+            let (by_q, by_v) = (a * node.minus().first - b * node.plus().first, a - b);
+            let r =
+                system.later(node.time(), |system| system.rayleigh_along(&node.q, &segment.v, &by_q, &by_v));
+            sum + node.on_segment(&r) * (half * node.weight)
         })
     }
 
@@ -428,15 +417,13 @@ pub trait DisplacementRule: Copy {
     #[inline]
     fn force_along<L: SecondOrder<N, M>, const N: usize, const M: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
         [a, b]: [&SVector<L::Scalar, N>; 2],
     ) -> Hessian<L::Scalar, N, M> {
-        on_velocity::<Self, _, N>(q0, v, h).fold(Hessian::zero(), |sum, node| {
+        nodes::<Self, _, N>(segment).fold(Hessian::zero(), |sum, node| {
             let vector = a * (node.position - L::Scalar::constant(1.0)) + b * node.position;
-            let f = system.later(node.time(h), |system| system.force_along(&node.q, v, &vector));
-            sum + node.on_segment(&f, h) * (h * node.weight)
+            let f = system.later(node.time(), |system| system.force_along(&node.q, &segment.v, &vector));
+            sum + node.on_segment(&f) * (segment.h * node.weight)
         })
     }
 
@@ -444,65 +431,21 @@ pub trait DisplacementRule: Copy {
     #[expect(clippy::type_complexity, reason = "a visitor, in full: an alias would hide its lifetime")]
     fn at_nodes<L: Lagrangian<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
         visit: &mut dyn FnMut(&L, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>),
     ) {
-        on_velocity::<Self, _, N>(q0, v, h)
-            .for_each(|node| system.later(node.time(h), |system| visit(system, &node.q, v)));
+        nodes::<Self, _, N>(segment)
+            .for_each(|node| system.later(node.time(), |system| visit(system, &node.q, &segment.v)));
     }
 
     /// Energy on the segment, Σ bᵢ E_L(qᵢ, v̄).
     #[inline]
     fn segment_energy<L: Lagrangian<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> L::Scalar {
-        let v = (q1 - q0) / h;
-        on_configurations::<Self, _, N>(q0, q1, h).fold(nalgebra::zero(), |sum: L::Scalar, node| {
-            sum + system.later(node.time(h), |system| system.energy(&node.q, &v)) * node.weight
+        nodes::<Self, _, N>(segment).fold(nalgebra::zero(), |sum: L::Scalar, node| {
+            sum + system.later(node.time(), |system| system.energy(&node.q, &segment.v)) * node.weight
         })
     }
-}
-
-/// The nodes as functions of (q0, q1): derivatives by q0 and q1 themselves.
-#[inline]
-fn on_configurations<R: DisplacementRule, S: Scalar, const N: usize>(
-    q0: &SVector<S, N>,
-    q1: &SVector<S, N>,
-    h: S,
-) -> impl Iterator<Item = Sample<S, N>> {
-    R::NODES.iter().map(move |node| {
-        let c = S::constant(node.position);
-        let rest = S::one() - c;
-        Sample {
-            weight: S::constant(node.weight),
-            position: c,
-            q: q0 * rest + q1 * c,
-            minus: Direction { first: rest, second: -S::one() / h },
-            plus: Direction { first: c, second: S::one() / h },
-        }
-    })
-}
-
-/// The nodes as functions of (q0, v̄), derivatives scaled by ∓h so that no division by h is left.
-#[inline]
-fn on_velocity<R: DisplacementRule, S: Scalar, const N: usize>(
-    q0: &SVector<S, N>,
-    v: &SVector<S, N>,
-    h: S,
-) -> impl Iterator<Item = Sample<S, N>> {
-    R::NODES.iter().map(move |node| {
-        let c = S::constant(node.position);
-        Sample {
-            weight: S::constant(node.weight),
-            position: c,
-            q: q0 + v * (c * h),
-            minus: Direction { first: (c - S::one()) * h, second: S::one() },
-            plus: Direction { first: c * h, second: S::one() },
-        }
-    })
 }

@@ -3,7 +3,9 @@ use nalgebra::SVector;
 use super::damped_drift::{ByDrift, DampedDrift};
 use super::{JointRayleighRule, JointRule};
 use crate::numbers::{CovectorDerivatives, Derivatives, Scalar};
-use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel, newton::Equation};
+use crate::step::{
+    DiscreteForce, DiscreteForceDerivatives, Momenta, Segment, StepKernel, equation::Equation,
+};
 use crate::system::{ActingForce, Lagrangian, Rayleigh};
 
 /// The midpoint rule, exponentially fitted to linear damping: stiff damping, however stiff, makes it not
@@ -45,8 +47,8 @@ fn half<S: Scalar>(h: S) -> S {
     h * S::constant(0.5)
 }
 
-fn middle<S: Scalar, const N: usize>(q0: &SVector<S, N>, q1: &SVector<S, N>) -> SVector<S, N> {
-    (q0 + q1) * S::constant(0.5)
+fn middle<S: Scalar, const N: usize>(segment: &Segment<S, N>) -> SVector<S, N> {
+    segment.at(S::constant(0.5))
 }
 
 /// L(q, 0) = −V(q) with its derivatives.
@@ -65,12 +67,10 @@ impl ByDrift for Fitted {
     fn kernel<L: Rayleigh<N> + ?Sized, const N: usize>(
         drift: &DampedDrift<L::Scalar, N>,
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> StepKernel<L::Scalar, N> {
-        let share = half(h);
-        let l = at_rest(system, &(q0 + v * share));
+        let (v, share) = (&segment.v, half(segment.h));
+        let l = at_rest(system, &middle(segment));
         StepKernel {
             p0: drift.before * v + drift.shift - drift.lag_plus * (l.d1 - drift.thrust) * share,
             matrix: drift.before - drift.lag_plus * l.d11 * (share * share),
@@ -81,12 +81,10 @@ impl ByDrift for Fitted {
     fn momenta<L: Rayleigh<N> + ?Sized, const N: usize>(
         drift: &DampedDrift<L::Scalar, N>,
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Momenta<L::Scalar, N> {
-        let share = half(h);
-        let impulse = drift.configuration_force(system, &(q0 + v * share)) * share;
+        let (v, share) = (&segment.v, half(segment.h));
+        let impulse = drift.configuration_force(system, &middle(segment)) * share;
         Momenta {
             p0: drift.before * v + drift.shift - drift.lag_plus * impulse,
             p1: drift.after * v + drift.shift + drift.lag_minus * impulse,
@@ -98,31 +96,27 @@ impl JointRule for Fitted {
     #[inline]
     fn discrete_lagrangian<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> L::Scalar {
-        let drift = DampedDrift::of(system, q0, h);
-        let d = q1 - q0;
-        d.dot(&(drift.mass() * d)) * L::Scalar::constant(0.5) / h
-            + drift.shift.dot(&d)
-            + system.lagrangian(&middle(q0, q1), &nalgebra::zero()) * h
+        let drift = DampedDrift::of(system, &segment.q0, segment.h);
+        let Segment { v, h, .. } = segment;
+        v.dot(&(drift.mass() * v)) * half(*h)
+            + drift.shift.dot(v) * *h
+            + system.lagrangian(&middle(segment), &nalgebra::zero()) * *h
     }
 
     #[inline]
     fn discrete_lagrangian_derivatives<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Derivatives<L::Scalar, N> {
-        let drift = DampedDrift::of(system, q0, h);
-        let l = at_rest(system, &middle(q0, q1));
-        let (mass, v) = (drift.mass(), (q1 - q0) / h);
+        let drift = DampedDrift::of(system, &segment.q0, segment.h);
+        let l = at_rest(system, &middle(segment));
+        let (mass, v, h) = (drift.mass(), &segment.v, segment.h);
         let (impulse, p) = (l.d1 * half(h), mass * v + drift.shift);
         let (bend, inertia) = (l.d11 * half(half(h)), mass / h);
         Derivatives {
-            value: (mass * v).dot(&v) * half(h) + drift.shift.dot(&v) * h + l.value * h,
+            value: (mass * v).dot(v) * half(h) + drift.shift.dot(v) * h + l.value * h,
             d1: impulse - p,
             d2: impulse + p,
             d11: bend + inertia,
@@ -134,29 +128,25 @@ impl JointRule for Fitted {
     #[inline]
     fn discrete_force<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForce<L::Scalar, N> {
-        let force = Self::discrete_force_derivatives(system, q0, q1, h);
+        let force = Self::discrete_force_derivatives(system, segment);
         DiscreteForce { minus: force.minus.value, plus: force.plus.value }
     }
 
     #[inline]
     fn discrete_force_derivatives<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForceDerivatives<L::Scalar, N> {
-        let drift = DampedDrift::of(system, q0, h);
-        let l = at_rest(system, &middle(q0, q1));
-        let share = half(h);
+        let drift = DampedDrift::of(system, &segment.q0, segment.h);
+        let l = at_rest(system, &middle(segment));
+        let share = half(segment.h);
         // ℒᵀ, half the difference of the two shares.
         let lag = (drift.lag_plus - drift.lag_minus) * L::Scalar::constant(0.5);
-        let drag = system.rayleigh_derivatives(q0, &nalgebra::zero()).d22 * L::Scalar::constant(0.5);
+        let drag = system.rayleigh_derivatives(&segment.q0, &nalgebra::zero()).d22 * L::Scalar::constant(0.5);
         let (impulse, bend) = (lag * l.d1 * share, lag * l.d11 * half(share));
-        let d = q1 - q0;
+        let d = segment.v * segment.h;
         DiscreteForceDerivatives {
             minus: CovectorDerivatives {
                 value: impulse - drag * d - drift.lag_plus * drift.thrust * share,
@@ -174,42 +164,35 @@ impl JointRule for Fitted {
     #[inline]
     fn step_kernel<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> StepKernel<L::Scalar, N> {
-        Self::kernel(&DampedDrift::of(system, q0, h), system, q0, v, h)
+        Self::kernel(&DampedDrift::of(system, &segment.q0, segment.h), system, segment)
     }
 
     #[inline]
     fn momenta<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Momenta<L::Scalar, N> {
-        <Self as ByDrift>::momenta(&DampedDrift::of(system, q0, h), system, q0, v, h)
+        <Self as ByDrift>::momenta(&DampedDrift::of(system, &segment.q0, segment.h), system, segment)
     }
 
     #[cold]
     fn cancelling_terms<L: ActingForce<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> SVector<L::Scalar, N> {
         // I + ℒ is at most 2; the drag is in `before`.
-        system.cancelling_terms(&(q0 + v * half(h)), &nalgebra::zero()).rate * nalgebra::ComplexField::abs(h)
+        system.cancelling_terms(&middle(segment), &nalgebra::zero()).rate
+            * nalgebra::ComplexField::abs(segment.h)
     }
 
     #[inline]
     fn segment_energy<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> L::Scalar {
-        system.energy(&middle(q0, q1), &((q1 - q0) / h))
+        system.energy(&middle(segment), &segment.v)
     }
 }
 
@@ -218,28 +201,24 @@ impl JointRayleighRule for Fitted {
     #[inline]
     fn discrete_rayleigh<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> L::Scalar {
-        Self::discrete_rayleigh_derivatives(system, q0, q1, h).value
+        Self::discrete_rayleigh_derivatives(system, segment).value
     }
 
     #[inline]
     fn discrete_rayleigh_derivatives<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Derivatives<L::Scalar, N> {
-        let drift = DampedDrift::of(system, q0, h);
-        let l = at_rest(system, &middle(q0, q1));
+        let drift = DampedDrift::of(system, &segment.q0, segment.h);
+        let l = at_rest(system, &middle(segment));
         let lag = (drift.lag_plus - drift.lag_minus)[(0, 0)] * L::Scalar::constant(0.5);
-        let force = Self::discrete_force_derivatives(system, q0, q1, h);
-        let d = q1 - q0;
-        let thrust = (d - (q0 + q1) * lag).dot(&drift.thrust) * half(h);
-        let damping = system.rayleigh_derivatives(q0, &nalgebra::zero()).d22;
-        let value = d.dot(&(damping * d)) * L::Scalar::constant(0.25) + l.value * (lag * h) + thrust;
+        let force = Self::discrete_force_derivatives(system, segment);
+        let d = segment.v * segment.h;
+        let thrust = (d - (segment.q0 + segment.end()) * lag).dot(&drift.thrust) * half(segment.h);
+        let damping = system.rayleigh_derivatives(&segment.q0, &nalgebra::zero()).d22;
+        let value = d.dot(&(damping * d)) * L::Scalar::constant(0.25) + l.value * (lag * segment.h) + thrust;
         force.as_of_rayleigh(value)
     }
 }

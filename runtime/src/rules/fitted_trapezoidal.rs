@@ -3,7 +3,9 @@ use nalgebra::SVector;
 use super::damped_drift::{ByDrift, DampedDrift};
 use super::{DisplacementRule, JointRayleighRule, JointRule, Trapezoidal};
 use crate::numbers::{CovectorDerivatives, Derivatives, Scalar};
-use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel, newton::Equation};
+use crate::step::{
+    DiscreteForce, DiscreteForceDerivatives, Momenta, Segment, StepKernel, equation::Equation,
+};
 use crate::system::Rayleigh;
 
 /// The trapezoidal rule, exponentially fitted to linear damping: explicit, and exact where there is no
@@ -37,12 +39,10 @@ impl ByDrift for FittedTrapezoidal {
     fn kernel<L: Rayleigh<N> + ?Sized, const N: usize>(
         drift: &DampedDrift<L::Scalar, N>,
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> StepKernel<L::Scalar, N> {
-        let impulse = drift.configuration_force(system, q0) * (h * L::Scalar::constant(0.5));
-        let p0 = drift.before * v + drift.shift - impulse;
+        let impulse = drift.configuration_force(system, &segment.q0) * (segment.h * L::Scalar::constant(0.5));
+        let p0 = drift.before * segment.v + drift.shift - impulse;
         StepKernel { p0, matrix: drift.before }
     }
 
@@ -50,12 +50,10 @@ impl ByDrift for FittedTrapezoidal {
     fn momenta<L: Rayleigh<N> + ?Sized, const N: usize>(
         drift: &DampedDrift<L::Scalar, N>,
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Momenta<L::Scalar, N> {
-        let half = h * L::Scalar::constant(0.5);
-        let [start, end] = [*q0, q0 + v * h].map(|q| drift.configuration_force(system, &q) * half);
+        let (v, half) = (&segment.v, segment.h * L::Scalar::constant(0.5));
+        let [start, end] = [segment.q0, segment.end()].map(|q| drift.configuration_force(system, &q) * half);
         Momenta { p0: drift.before * v + drift.shift - start, p1: drift.after * v + drift.shift + end }
     }
 }
@@ -64,30 +62,26 @@ impl JointRule for FittedTrapezoidal {
     #[inline]
     fn discrete_lagrangian<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> L::Scalar {
-        let drift = DampedDrift::of(system, q0, h);
-        let d = q1 - q0;
-        let half = L::Scalar::constant(0.5);
-        let rest = nalgebra::zero();
-        d.dot(&(drift.mass() * d)) * half / h
-            + drift.shift.dot(&d)
-            + (system.lagrangian(q0, &rest) + system.lagrangian(q1, &rest)) * (half * h)
+        let drift = DampedDrift::of(system, &segment.q0, segment.h);
+        let Segment { q0, v, h } = segment;
+        let (half, rest) = (*h * L::Scalar::constant(0.5), nalgebra::zero());
+        v.dot(&(drift.mass() * v)) * half
+            + drift.shift.dot(v) * *h
+            + (system.lagrangian(q0, &rest) + system.lagrangian(&segment.end(), &rest)) * half
     }
 
     #[inline]
     fn discrete_lagrangian_derivatives<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Derivatives<L::Scalar, N> {
-        let drift = DampedDrift::of(system, q0, h);
+        let drift = DampedDrift::of(system, &segment.q0, segment.h);
+        let Segment { q0, v, h } = *segment;
         let half = h * L::Scalar::constant(0.5);
-        let (mass, v, rest) = (drift.mass(), (q1 - q0) / h, nalgebra::zero());
-        let [start, end] = [q0, q1].map(|q| system.lagrangian_derivatives(q, &rest));
+        let (mass, rest) = (drift.mass(), nalgebra::zero());
+        let [start, end] = [q0, segment.end()].map(|q| system.lagrangian_derivatives(&q, &rest));
         let (p, inertia) = (mass * v + drift.shift, mass / h);
         Derivatives {
             value: (mass * v).dot(&v) * half + drift.shift.dot(&v) * h + (start.value + end.value) * half,
@@ -102,25 +96,21 @@ impl JointRule for FittedTrapezoidal {
     #[inline]
     fn discrete_force<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForce<L::Scalar, N> {
-        let r = system.rayleigh_derivatives(q0, &nalgebra::zero());
+        let r = system.rayleigh_derivatives(&segment.q0, &nalgebra::zero());
         let half = L::Scalar::constant(0.5);
-        let force = -(r.d22 * (q1 - q0) + r.d2 * h) * half;
+        let force = -(r.d22 * segment.v + r.d2) * (segment.h * half);
         DiscreteForce { minus: force, plus: force }
     }
 
     #[inline]
     fn discrete_force_derivatives<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForceDerivatives<L::Scalar, N> {
-        let drag = system.rayleigh_derivatives(q0, &nalgebra::zero()).d22 * L::Scalar::constant(0.5);
-        let force = Self::discrete_force(system, q0, q1, h).minus;
+        let drag = system.rayleigh_derivatives(&segment.q0, &nalgebra::zero()).d22 * L::Scalar::constant(0.5);
+        let force = Self::discrete_force(system, segment).minus;
         let either = CovectorDerivatives { value: force, d1: drag, d2: -drag };
         DiscreteForceDerivatives { minus: either, plus: either }
     }
@@ -128,42 +118,34 @@ impl JointRule for FittedTrapezoidal {
     #[inline]
     fn step_kernel<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> StepKernel<L::Scalar, N> {
-        Self::kernel(&DampedDrift::of(system, q0, h), system, q0, v, h)
+        Self::kernel(&DampedDrift::of(system, &segment.q0, segment.h), system, segment)
     }
 
     #[inline]
     fn momenta<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Momenta<L::Scalar, N> {
-        <Self as ByDrift>::momenta(&DampedDrift::of(system, q0, h), system, q0, v, h)
+        <Self as ByDrift>::momenta(&DampedDrift::of(system, &segment.q0, segment.h), system, segment)
     }
 
     #[inline]
     fn segment_energy<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> L::Scalar {
-        let v = (q1 - q0) / h;
-        (system.energy(q0, &v) + system.energy(q1, &v)) * L::Scalar::constant(0.5)
+        let ends = [segment.q0, segment.end()].map(|q| system.energy(&q, &segment.v));
+        (ends[0] + ends[1]) * L::Scalar::constant(0.5)
     }
 
     fn at_nodes<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
         visit: &mut dyn FnMut(&L, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>),
     ) {
-        Trapezoidal::at_nodes(system, q0, v, h, visit);
+        Trapezoidal::at_nodes(system, segment, visit);
     }
 }
 
@@ -171,23 +153,20 @@ impl JointRayleighRule for FittedTrapezoidal {
     #[inline]
     fn discrete_rayleigh<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> L::Scalar {
-        let r = system.rayleigh_derivatives(q0, &nalgebra::zero());
-        let d = q1 - q0;
-        d.dot(&(r.d22 * d)) * L::Scalar::constant(0.25) + d.dot(&r.d2) * (h * L::Scalar::constant(0.5))
+        let r = system.rayleigh_derivatives(&segment.q0, &nalgebra::zero());
+        let d = segment.v * segment.h;
+        d.dot(&(r.d22 * d)) * L::Scalar::constant(0.25)
+            + d.dot(&r.d2) * (segment.h * L::Scalar::constant(0.5))
     }
 
     #[inline]
     fn discrete_rayleigh_derivatives<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Derivatives<L::Scalar, N> {
-        let value = Self::discrete_rayleigh(system, q0, q1, h);
-        Self::discrete_force_derivatives(system, q0, q1, h).as_of_rayleigh(value)
+        let value = Self::discrete_rayleigh(system, segment);
+        Self::discrete_force_derivatives(system, segment).as_of_rayleigh(value)
     }
 }

@@ -25,21 +25,20 @@ mod solve;
 mod taken;
 mod tangent;
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
-use crate::numbers::{Compensated, Derivatives, Scalar, lanes::splat};
+use crate::numbers::{Compensated, Scalar, lanes::splat};
 use crate::step::{
-    Defect, Discrete, DiscreteForce, DiscreteForceDerivatives, EquationAt, Flow, LegendreDerivatives,
-    Linearization, Momenta, Quantity, Report, State, StateBy, Step, StepError, StepKernel,
-    newton::ITERATIONS, of_any_step,
+    Discrete, DiscreteObjects, EquationAt, Flow, PhaseMatrix, Quantity, Report, Segment, State, Step,
+    StepError, newton::ITERATIONS, of_any_step,
 };
-use crate::system::{ForcedLagrangian, VectorField};
+use crate::system::ForcedLagrangian;
 use coefficients::Coefficients;
 pub use history::StageHistory;
 pub use in_lanes::StagesInLanes;
 pub(crate) use problem::Solver;
 use problem::{Problem, Solution};
-use segment::Segment;
+use segment::SolvedSegment;
 pub(crate) use slack::{SLACK, steps_until};
 use solve::solve;
 
@@ -79,9 +78,10 @@ use solve::solve;
 /// [`segment`](crate::Discretised::segment) says where it finds none.
 ///
 /// Every stage sees its own time t0 + c_i h, and the input that is held. Derivatives of the step
-/// ([`Linearization`], [`StateBy`], [`StepHessian`](crate::derivative::StepHessian)) are exact, by the matrix
-/// of all stages, factored once. From the state that it starts from, `of_step` takes them at the stages of
-/// the step; between two ends, `of_segment` solves for the stages first. They neither allocate nor panic.
+/// ([`StepTaken`](crate::derivative::StepTaken)) are exact, by the matrix of all stages, factored once. From
+/// the state that it starts from, [`linearized`](crate::Discretised::linearized) takes them at the stages of
+/// the step; between two ends, [`segment`](crate::Discretised::segment) solves for the stages first. They
+/// neither allocate nor panic.
 ///
 /// **Stack.** The matrix of all stages has (N S)² entries and lives on the stack. Without optimisation it is
 /// copied on its way: a step with its derivatives takes 1 to 8 MiB at N S = 64 there, where a thread has 2
@@ -137,132 +137,15 @@ where
     T: Scalar,
     L: ForcedLagrangian<N, Scalar = T>,
 {
-    type Matrix = SMatrix<T, N, N>;
-    type Memory = StageHistory<T, N, S>;
-
-    /// L_d = h Σ b_i L(Q_i, V_i).
-    fn discrete_lagrangian(&self, q0: &SVector<T, N>, q1: &SVector<T, N>, h: T) -> T {
-        Segment::<'_, L, N, S>::new(self, q0, &((q1 - q0) / h), h)
-            .map_or(nan(), |segment| segment.lagrangian())
-    }
-
-    fn require_segment(&self, q0: &SVector<T, N>, q1: &SVector<T, N>, h: T) -> Result<(), StepError> {
-        Segment::<'_, L, N, S>::between(self, q0, q1, h).map(|_| ())
-    }
-
-    fn discrete_lagrangian_derivatives(
-        &self,
-        q0: &SVector<T, N>,
-        q1: &SVector<T, N>,
-        h: T,
-    ) -> Derivatives<T, N> {
-        let force = force::force_derivatives::<_, L, N, S>(self, q0, q1, h);
-        let solved = Segment::<'_, L, N, S>::new(self, q0, &((q1 - q0) / h), h);
-        solved
-            .and_then(|segment| Ok(segment.lagrangian_derivatives(&segment.variations()?, &force)))
-            .unwrap_or(Derivatives {
-                value: nan(),
-                d1: SVector::repeat(nan()),
-                d2: SVector::repeat(nan()),
-                d11: SMatrix::repeat(nan()),
-                d12: SMatrix::repeat(nan()),
-                d22: SMatrix::repeat(nan()),
-            })
-    }
-
-    fn discrete_force(&self, q0: &SVector<T, N>, q1: &SVector<T, N>, h: T) -> DiscreteForce<T, N> {
-        force::force::<_, L, N, S>(self, q0, q1, h)
-    }
-
-    fn discrete_force_derivatives(
-        &self,
-        q0: &SVector<T, N>,
-        q1: &SVector<T, N>,
-        h: T,
-    ) -> DiscreteForceDerivatives<T, N> {
-        force::force_derivatives::<_, L, N, S>(self, q0, q1, h)
-    }
+    type On<'a>
+        = SolvedSegment<'a, L, N, S>
+    where
+        L: 'a;
 
     const HAS_INTERIOR_POINTS: bool = true;
 
-    fn defect(
-        &self,
-        xi: &dyn VectorField<N, Scalar = T>,
-        q0: &SVector<T, N>,
-        q1: &SVector<T, N>,
-        h: T,
-    ) -> (Defect<T>, Defect<T>) {
-        defect::at_the_stages::<_, _, N, S>(self, xi, (q0, q1), h).unwrap_or_else(|_| {
-            let none = Defect { lagrangian: nan(), force: nan(), interior: nan() };
-            (none, none)
-        })
-    }
-
-    fn force_contraction(
-        &self,
-        xi: &dyn VectorField<N, Scalar = T>,
-        q0: &SVector<T, N>,
-        q1: &SVector<T, N>,
-        h: T,
-        component: &mut dyn FnMut(T, T),
-    ) {
-        match Segment::<'_, L, N, S>::new(self, q0, &((q1 - q0) / h), h) {
-            Ok(segment) => defect::force_contraction(&segment, xi, component),
-            Err(_) => (0..2 * N * S).for_each(|_| component(nan(), nan())),
-        }
-    }
-
-    fn step_kernel(&self, q0: &SVector<T, N>, v: &SVector<T, N>, h: T) -> StepKernel<T, N> {
-        let solved = Segment::<'_, L, N, S>::new(self, q0, v, h);
-        solved
-            .and_then(|segment| {
-                let matrix = segment.variations()?.p0_by_q1 * h;
-                Ok(StepKernel { p0: segment.momenta().p0, matrix })
-            })
-            .unwrap_or(StepKernel { p0: SVector::repeat(nan()), matrix: SMatrix::repeat(nan()) })
-    }
-
-    fn momenta(&self, q0: &SVector<T, N>, v: &SVector<T, N>, h: T) -> Momenta<T, N> {
-        Segment::<'_, L, N, S>::new(self, q0, v, h)
-            .map_or(Momenta { p0: SVector::repeat(nan()), p1: SVector::repeat(nan()) }, |segment| {
-                segment.momenta()
-            })
-    }
-
-    /// Σ b_i E_L(Q_i, V_i).
-    fn segment_energy(&self, q0: &SVector<T, N>, q1: &SVector<T, N>, h: T) -> T {
-        Segment::<'_, L, N, S>::new(self, q0, &((q1 - q0) / h), h).map_or(nan(), |segment| segment.energy())
-    }
-
-    /// Where the segment has no solution that Newton's method finds, all is NaN.
-    fn legendre_derivatives(
-        &self,
-        q0: &SVector<T, N>,
-        q1: &SVector<T, N>,
-        h: T,
-    ) -> LegendreDerivatives<T, N> {
-        let solved = Segment::<'_, L, N, S>::between(self, q0, q1, h);
-        solved.and_then(|segment| segment.legendre()).unwrap_or_else(|_| {
-            let (vector, matrix) = (SVector::repeat(nan()), SMatrix::repeat(nan()));
-            let momenta = Momenta { p0: vector, p1: vector };
-            LegendreDerivatives {
-                momenta,
-                p0_by_q0: matrix,
-                p0_by_q1: matrix,
-                p1_by_q0: matrix,
-                p1_by_q1: matrix,
-            }
-        })
-    }
-
-    fn linearization(
-        &self,
-        q0: &SVector<T, N>,
-        q1: &SVector<T, N>,
-        h: T,
-    ) -> Result<Linearization<T, N>, StepError> {
-        let segment = Segment::<'_, L, N, S>::between(self, q0, q1, h)?;
-        Ok(Linearization { a: segment.by_state()?.matrix(), b: StateBy::zero() })
+    fn on<'a>(&'a self, segment: &Segment<T, N>) -> Result<SolvedSegment<'a, L, N, S>, StepError> {
+        SolvedSegment::new(self, segment)
     }
 
     /// The branch by the equations of all stages: ∂p0/∂v̄ = h (∂q1/∂p0)⁻¹ changes sign through infinity at a
@@ -272,42 +155,39 @@ where
         state: &State<T, N>,
         step: &Step<T, N>,
         h: T,
-    ) -> Result<EquationAt<T, N, SMatrix<T, N, N>>, StepError> {
+    ) -> Result<EquationAt<T, N>, StepError> {
         let mass = self.lagrangian_derivatives(&state.q, &step.velocity).d22;
-        let equation = |kernel, segment: &Segment<'_, L, N, S>| EquationAt {
-            kernel,
+        let equation = |p0, matrix, solved: &SolvedSegment<'_, L, N, S>| EquationAt {
+            p0,
+            matrix,
             mass,
-            on_the_branch_of_the_flow: segment.is_on_the_branch_of_the_flow(),
+            on_the_branch_of_the_flow: solved.is_on_the_branch_of_the_flow(),
         };
         // The stages of this very step: several solutions may share its start, or both its ends.
         for guess in [Some(&step.velocity), None] {
-            if let Ok((again, segment)) = solved_segment::<_, _, N, S>(self, state, h, guess) {
+            if let Ok((again, solved)) = solved_segment::<_, _, N, S>(self, state, h, guess) {
                 let off = step.velocity - again.velocity;
                 if off.norm() <= step.velocity.norm() * T::EPSILON.sqrt() {
-                    let matrix = segment.variations()?.p0_by_q1 * h;
-                    let p0 = state.p + matrix * off;
-                    return Ok(equation(StepKernel { p0, matrix }, &segment));
+                    let matrix = solved.variations()?.p0_by_q1 * h;
+                    return Ok(equation(state.p + matrix * off, matrix, &solved));
                 }
             }
         }
-        let segment = Segment::<'_, L, N, S>::new(self, &state.q, &step.velocity, h)?;
-        let matrix = segment.variations()?.p0_by_q1 * h;
-        let kernel = StepKernel { p0: segment.momenta().p0, matrix };
-        Ok(equation(kernel, &segment))
+        let solved = SolvedSegment::<'_, L, N, S>::new(self, &Segment { q0: state.q, v: step.velocity, h })?;
+        let matrix = solved.variations()?.p0_by_q1 * h;
+        Ok(equation(solved.momenta().p0, matrix, &solved))
     }
 
     /// At the nodes of the segment with the mean velocity: near the stages, which would have to be solved
     /// for. A step verifies its own.
     fn at_nodes(
         &self,
-        q0: &SVector<T, N>,
-        v: &SVector<T, N>,
-        h: T,
+        segment: &Segment<T, N>,
         visit: &mut dyn FnMut(&Self, &SVector<T, N>, &SVector<T, N>),
     ) {
         for node in Gauss::<S>::NODES {
-            let elapsed = h * T::constant(node);
-            self.later(elapsed, |system| visit(system, &(q0 + v * elapsed), v));
+            let share = T::constant(node);
+            self.later(segment.h * share, |system| visit(system, &segment.at(share), &segment.v));
         }
     }
 }
@@ -336,9 +216,9 @@ where
         state: &State<T, N>,
         h: T,
         guess: Option<&SVector<T, N>>,
-    ) -> Result<(Step<T, N>, Linearization<T, N>), StepError> {
-        let (step, segment) = solved_segment::<_, _, N, S>(self, state, h, guess)?;
-        Ok((step, Linearization { a: segment.by_state()?.matrix(), b: StateBy::zero() }))
+    ) -> Result<(Step<T, N>, PhaseMatrix<T, N>), StepError> {
+        let (step, solved) = solved_segment::<_, _, N, S>(self, state, h, guess)?;
+        Ok((step, solved.by_state()?.matrix()))
     }
 }
 
@@ -428,12 +308,8 @@ fn solved_segment<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
     state: &State<T, N>,
     h: T,
     guess: Option<&SVector<T, N>>,
-) -> Result<(Step<T, N>, Segment<'a, L, N, S>), StepError> {
+) -> Result<(Step<T, N>, SolvedSegment<'a, L, N, S>), StepError> {
     let (problem, solution) = solved(system, state, h, guess)?;
     let step = completed(&problem, &solution)?.0;
-    Ok((step, Segment::of_stages(problem, solution.v)?))
-}
-
-fn nan<T: Scalar>() -> T {
-    T::constant(f64::NAN)
+    Ok((step, SolvedSegment::of_stages(problem, solution.v)?))
 }

@@ -2,7 +2,7 @@ use nalgebra::SVector;
 
 use super::{DisplacementRule, JointRayleighRule, JointRule, Midpoint};
 use crate::numbers::{Derivatives, Scalar};
-use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, SolvedForVelocity, StepKernel};
+use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, Segment, SolvedForVelocity, StepKernel};
 use crate::system::{ActingForce, Rayleigh};
 
 /// The midpoint rule with all of the damping at the start of the segment: L-stable in the damping for every
@@ -28,85 +28,69 @@ impl JointRule for OneSided {
     #[inline]
     fn discrete_lagrangian<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> L::Scalar {
-        Midpoint::discrete_lagrangian(system, q0, q1, h) + Midpoint::discrete_rayleigh(system, q0, q1, h)
+        Midpoint::discrete_lagrangian(system, segment) + Midpoint::discrete_rayleigh(system, segment)
     }
 
     #[inline]
     fn discrete_lagrangian_derivatives<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Derivatives<L::Scalar, N> {
-        Midpoint::discrete_lagrangian_derivatives(system, q0, q1, h)
-            + Midpoint::discrete_rayleigh_derivatives(system, q0, q1, h)
+        Midpoint::discrete_lagrangian_derivatives(system, segment)
+            + Midpoint::discrete_rayleigh_derivatives(system, segment)
     }
 
     #[inline]
     fn discrete_force<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForce<L::Scalar, N> {
-        Midpoint::rayleigh_force(system, q0, q1, h)
+        Midpoint::rayleigh_force(system, segment)
     }
 
     #[inline]
     fn discrete_force_derivatives<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForceDerivatives<L::Scalar, N> {
-        Midpoint::rayleigh_force_derivatives(system, q0, q1, h)
+        Midpoint::rayleigh_force_derivatives(system, segment)
     }
 
     #[inline]
     fn step_kernel<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> StepKernel<L::Scalar, N> {
-        let r = system.rayleigh_derivatives(q0, v);
-        Midpoint::lagrangian_kernel(system, q0, v, h) + StepKernel { p0: r.d2, matrix: r.d22 } * h
+        let r = system.rayleigh_derivatives(&segment.q0, &segment.v);
+        Midpoint::lagrangian_kernel(system, segment) + StepKernel { p0: r.d2, matrix: r.d22 } * segment.h
     }
 
     #[inline]
     fn momenta<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Momenta<L::Scalar, N> {
-        let drag = system.rayleigh_gradient(q0, v).d2 * h;
-        Midpoint::lagrangian_momenta(system, q0, v, h) + Momenta { p0: drag, p1: nalgebra::zero() }
+        let drag = system.rayleigh_gradient(&segment.q0, &segment.v).d2 * segment.h;
+        Midpoint::lagrangian_momenta(system, segment) + Momenta { p0: drag, p1: nalgebra::zero() }
     }
 
     #[cold]
     fn cancelling_terms<L: ActingForce<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> SVector<L::Scalar, N> {
         // Half of the potential's force, the whole of the drag.
-        Midpoint::cancelling_terms(system, q0, v, h) * L::Scalar::constant(2.0)
+        Midpoint::cancelling_terms(system, segment) * L::Scalar::constant(2.0)
     }
 
     #[inline]
     fn segment_energy<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> L::Scalar {
-        Midpoint::segment_energy(system, q0, q1, h)
+        Midpoint::segment_energy(system, segment)
     }
 }
 
@@ -114,20 +98,16 @@ impl JointRayleighRule for OneSided {
     #[inline]
     fn discrete_rayleigh<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> L::Scalar {
-        Midpoint::discrete_rayleigh(system, q0, q1, h)
+        Midpoint::discrete_rayleigh(system, segment)
     }
 
     #[inline]
     fn discrete_rayleigh_derivatives<L: Rayleigh<N>, const N: usize>(
         system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
     ) -> Derivatives<L::Scalar, N> {
-        Midpoint::discrete_rayleigh_derivatives(system, q0, q1, h)
+        Midpoint::discrete_rayleigh_derivatives(system, segment)
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::parts::Parts;
 use super::{DisplacementRule, Fused, Node, SelfAdjoint};
-use crate::step::{Momenta, SolvedForVelocity, StepKernel, VelocityHistory};
+use crate::step::{Momenta, Segment, SolvedForVelocity, StepKernel, VelocityHistory};
 use crate::system::ActingForce;
 
 /// The rule of one's own `Q`, for every system: nodes and weights on the straight line from q0 to q1.
@@ -65,46 +65,31 @@ where
     type Memory = VelocityHistory<L::Scalar, N>;
 
     #[inline]
-    fn step_kernel(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> StepKernel<L::Scalar, N> {
-        let mut kernel = Q::lagrangian_kernel(self, q0, v, h);
+    fn step_kernel(&self, segment: &Segment<L::Scalar, N>) -> StepKernel<L::Scalar, N> {
+        let mut kernel = Q::lagrangian_kernel(self, segment);
         if L::HAS_RAYLEIGH {
-            kernel = kernel + Q::rayleigh_kernel(&Parts::of(self), q0, v, h);
+            kernel = kernel + Q::rayleigh_kernel(&Parts::of(self), segment);
         }
         if L::HAS_FORCE {
-            kernel = kernel + Q::force_kernel(&Parts::of(self), q0, v, h);
+            kernel = kernel + Q::force_kernel(&Parts::of(self), segment);
         }
         kernel
     }
 
     #[inline]
-    fn momenta(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> Momenta<L::Scalar, N> {
-        let mut momenta = Q::lagrangian_momenta(self, q0, v, h);
+    fn momenta(&self, segment: &Segment<L::Scalar, N>) -> Momenta<L::Scalar, N> {
+        let mut momenta = Q::lagrangian_momenta(self, segment);
         if L::HAS_RAYLEIGH {
-            momenta = momenta + Q::rayleigh_momenta(&Parts::of(self), q0, v, h);
+            momenta = momenta + Q::rayleigh_momenta(&Parts::of(self), segment);
         }
         if L::HAS_FORCE {
-            momenta = momenta + Q::force_momenta(&Parts::of(self), q0, v, h);
+            momenta = momenta + Q::force_momenta(&Parts::of(self), segment);
         }
         momenta
     }
 
     #[cold]
-    fn cancelling_terms(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> SVector<L::Scalar, N> {
-        Q::cancelling_terms(self, q0, v, h)
+    fn cancelling_terms(&self, segment: &Segment<L::Scalar, N>) -> SVector<L::Scalar, N> {
+        Q::cancelling_terms(self, segment)
     }
 }

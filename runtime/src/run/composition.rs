@@ -6,10 +6,7 @@ use nalgebra::SVector;
 
 use crate::numbers::Scalar;
 use crate::rules::SelfAdjoint;
-use crate::step::{
-    EnergyExchange, Flow, ForceWork, Linearization, Memory, PhaseMatrix, Report, State, StateBy, Step,
-    StepError, StepWith,
-};
+use crate::step::{EnergyExchange, Flow, ForceWork, Memory, PhaseMatrix, Report, State, Step, StepError};
 use crate::system::GeneratedDiffers;
 
 /// A composition of S substeps γ₁h, …, γ_S h of rule `R`, symmetric (γᵢ = γ_{S+1−i}) and of high order.
@@ -170,7 +167,7 @@ where
         state: &State<L::Scalar, N>,
         h: L::Scalar,
         guess: Option<&SVector<L::Scalar, N>>,
-    ) -> Result<StepWith<L::Scalar, N, Linearization<L::Scalar, N>>, StepError> {
+    ) -> Result<(Step<L::Scalar, N>, PhaseMatrix<L::Scalar, N>), StepError> {
         let mut summary = Summary::new();
         let (mut end, mut elapsed, mut guess) = (*state, L::Scalar::constant(0.0), guess.copied());
         let mut a = PhaseMatrix::identity();
@@ -179,11 +176,11 @@ where
             let (step, by) = self
                 .later(elapsed, |system| Flow::<R, N>::linearized_step(system, &end, part, guess.as_ref()))?;
             summary.add(&step.report);
-            a = by.a * a;
+            a = by * a;
             (end, guess) = (step.state, Some(step.velocity));
             elapsed += part;
         }
-        Ok((summary.step(state, &end, h), Linearization { a, b: StateBy::zero() }))
+        Ok((summary.step(state, &end, h), a))
     }
 }
 

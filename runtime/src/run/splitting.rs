@@ -15,10 +15,7 @@ use crate::rules::{Drift, modes, require_positive_definite};
 use crate::run::Explicit;
 use crate::run::memory::verify_explicit;
 use crate::step::cause::{cause_of, explained};
-use crate::step::{
-    Flow, Linearization, Memory, PhaseMatrix, Quantity, Report, State, StateBy, Step, StepError, StepWith,
-    invert,
-};
+use crate::step::{Flow, Memory, PhaseMatrix, Quantity, Report, Segment, State, Step, StepError, invert};
 use crate::system::GeneratedDiffers;
 
 /// A splitting of the motion into kicks by the potential and damped free motions between, S of them,
@@ -152,11 +149,11 @@ where
         state: &State<L::Scalar, N>,
         h: L::Scalar,
         _guess: Option<&SVector<L::Scalar, N>>,
-    ) -> Result<StepWith<L::Scalar, N, Linearization<L::Scalar, N>>, StepError> {
+    ) -> Result<(Step<L::Scalar, N>, PhaseMatrix<L::Scalar, N>), StepError> {
         let prepared = Prepared::<L::Scalar, N, S>::new(self, h)?;
         let mut kicks = Kicks { prepared: Some(prepared), ..Kicks::default() };
         let step = Memory::<L, Splitting<S, COMPENSATED>, N>::advance(&mut kicks, self, state, h)?;
-        Ok((step, Linearization { a: prepared.derivative(self, state)?, b: StateBy::zero() }))
+        Ok((step, prepared.derivative(self, state)?))
     }
 
     fn verify_momenta(&self, state: &State<L::Scalar, N>, h: L::Scalar) -> Result<(), GeneratedDiffers> {
@@ -455,7 +452,7 @@ where
         end.require_reached().map_err(|error| prepared.explained(system, state, error))?;
         let velocity = (end.q - state.q) / h;
         if cfg!(debug_assertions) {
-            system.verify_segment(&state.q, &velocity, h)?;
+            system.verify_segment(&Segment { q0: state.q, v: velocity, h })?;
         }
         (self.force, self.end) = (Some((end.q, at_end)), rests);
         Ok(Step { state: end, velocity, report: Report::of_no_equation() })

@@ -11,8 +11,9 @@ use crate::step::discrete::explained_on;
 #[cfg(feature = "theory")]
 use crate::step::stop::Stop;
 use crate::step::{
-    BoundedFlow, BoundedStep, ClosedForm, Discrete, DiscreteForce, DiscreteRayleigh, DiscreteSegment, Flow,
-    LegendreDerivatives, State, Step, StepError, require_step_size,
+    BoundedFlow, BoundedStep, ClosedForm, Discrete, DiscreteForce, DiscreteObjects, DiscreteRayleigh,
+    DiscreteSegment, Flow, LegendreDerivatives, Linearizable, Memory, PhaseMatrix, Segment, State, Step,
+    StepError, StepTaken, require_step_size,
 };
 use crate::system::{Lagrangian, Quantity};
 
@@ -203,6 +204,84 @@ where
     }
 }
 
+/// Derivatives of steps.
+impl<'a, L, M, const N: usize> Discretised<'a, L, M, N>
+where
+    L: Flow<M, N>,
+{
+    /// The step with its derivative A = ∂(q1, p1)/∂(q0, p0), by any method.
+    ///
+    /// ```
+    /// use dalembert::nalgebra::vector;
+    /// use dalembert::{Discretise, Gauss, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system(rule = gauss)]
+    /// fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64) -> f64 {
+    ///     0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0]
+    /// }
+    /// let state = State { q: vector![0.3], p: vector![-0.2] };
+    /// let (step, a) = Oscillator { m: 1.0, k: 1.0 }.by(Gauss::<4>, 0.5).linearized_step(&state)?;
+    /// // The rotation by the angle h, to order 8.
+    /// assert!((a.q_by_q[0] - 0.5_f64.cos()).abs() < 1e-9 && (a.q_by_p[0] - 0.5_f64.sin()).abs() < 1e-9);
+    /// assert!((step.state.q[0] - (a.q_by_q[0] * 0.3 - a.q_by_p[0] * 0.2)).abs() < 1e-15);
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`step`](Self::step); [`StepError::SingularNewtonMatrix`] where the step has no derivative.
+    pub fn linearized_step(
+        &self,
+        state: &State<L::Scalar, N>,
+    ) -> Result<(Step<L::Scalar, N>, PhaseMatrix<L::Scalar, N>), StepError> {
+        self.system.linearized_step(state, self.h, self.guess.as_ref())
+    }
+
+    /// The step, linearised: A by the state, B by the input, derivatives by parameters and second ones are
+    /// asked of it, and its equations are factored once.
+    ///
+    /// ```
+    /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
+    ///
+    /// struct Cart {
+    ///     m: f64,
+    /// }
+    ///
+    /// #[rayleigh_system]
+    /// impl Cart {
+    ///     fn lagrangian(&self, _q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///         0.5 * self.m * v[0] * v[0]
+    ///     }
+    ///     fn force(&self, _q: [f64; 1], _v: [f64; 1], u: [f64; 1]) -> [f64; 1] {
+    ///         u
+    ///     }
+    /// }
+    /// let (m, h) = (2.0, 0.1);
+    /// let cart = Cart { m };
+    /// let state = State::from_velocity(&cart, [0.0], [0.5])?;
+    /// let driven = cart.driven([0.3]);
+    /// let taken = driven.by(Midpoint, h).linearized(&state)?;
+    /// // (q1, p1) ≈ … + A (q0, p0) + B u
+    /// let (a, b) = (taken.by_state()?, taken.by_input::<1>()?);
+    /// assert!((a.q_by_p[0] - h / m).abs() < 1e-16);
+    /// assert!((b.q[0] - h * h / (2.0 * m)).abs() < 1e-16 && (b.p[0] - h).abs() < 1e-16);
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`linearized_step`](Self::linearized_step).
+    pub fn linearized(&self, state: &State<L::Scalar, N>) -> Result<StepTaken<'a, L, M, N>, StepError>
+    where
+        L: Linearizable<M, N>,
+    {
+        let mut memory = L::RunMemory::default();
+        if let Some(guess) = &self.guess {
+            memory.suggest(guess, self.h);
+        }
+        let step = memory.advance(self.system, state, self.h)?;
+        StepTaken::new(self.system, &memory, state, step, self.h)
+    }
+}
+
 /// Segments, and steps between configurations.
 impl<'a, L, R, const N: usize> Discretised<'a, L, R, N>
 where
@@ -249,9 +328,10 @@ where
         require_step_size(self.h)?;
         StepError::require_finite(q0, Quantity::Configuration)?;
         StepError::require_finite(q1, Quantity::Configuration)?;
-        let state = self.system.legendre_plus(q0, q1, self.h);
+        let segment = Segment::between(q0, q1, self.h);
+        let state = State { q: *q1, p: self.system.on(&segment)?.momenta().p1 };
         StepError::require_finite(&state.p, Quantity::Derivatives)
-            .map_err(|error| explained_on(self.system, q0, &((q1 - q0) / self.h), self.h, error))?;
+            .map_err(|error| explained_on::<L, R, N>(self.system, &segment, error))?;
         self.system.later(self.h, |system| system.step(&state, self.h, self.guess.as_ref()))
     }
 }
@@ -260,14 +340,11 @@ where
 /// them. [`segment`](Self::segment) serves all rules.
 impl<L, R, const N: usize> Discretised<'_, L, R, N>
 where
-    L: Discrete<R, N>,
+    L: ClosedForm<R, N>,
 {
     /// L_d(q0, q1).
-    pub fn discrete_lagrangian(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
-    where
-        R: ClosedForm,
-    {
-        self.system.discrete_lagrangian(q0, q1, self.h)
+    pub fn discrete_lagrangian(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar {
+        self.system.discrete_lagrangian(&self.between(q0, q1))
     }
 
     /// L_d with D1, D2, D11, D12, D22.
@@ -275,11 +352,8 @@ where
         &self,
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
-    ) -> Derivatives<L::Scalar, N>
-    where
-        R: ClosedForm,
-    {
-        self.system.discrete_lagrangian_derivatives(q0, q1, self.h)
+    ) -> Derivatives<L::Scalar, N> {
+        self.system.discrete_lagrangian_derivatives(&self.between(q0, q1))
     }
 
     /// f_d = (f_d⁻, f_d⁺), of the Rayleigh function and the general force together; 0 where the system has
@@ -288,11 +362,8 @@ where
         &self,
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
-    ) -> DiscreteForce<L::Scalar, N>
-    where
-        R: ClosedForm,
-    {
-        self.system.discrete_force(q0, q1, self.h)
+    ) -> DiscreteForce<L::Scalar, N> {
+        self.system.discrete_force(&self.between(q0, q1))
     }
 
     /// 𝔽⁻: (q0, q1) ↦ (q0, −D1 L_d − f_d⁻).
@@ -300,19 +371,17 @@ where
         &self,
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
-    ) -> State<L::Scalar, N>
-    where
-        R: ClosedForm,
-    {
-        self.system.legendre_minus(q0, q1, self.h)
+    ) -> State<L::Scalar, N> {
+        State { q: *q0, p: self.system.momenta(&self.between(q0, q1)).p0 }
     }
 
     /// 𝔽⁺: (q0, q1) ↦ (q1, D2 L_d + f_d⁺).
-    pub fn legendre_plus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> State<L::Scalar, N>
-    where
-        R: ClosedForm,
-    {
-        self.system.legendre_plus(q0, q1, self.h)
+    pub fn legendre_plus(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+    ) -> State<L::Scalar, N> {
+        State { q: *q1, p: self.system.momenta(&self.between(q0, q1)).p1 }
     }
 
     /// Both momenta of the segment with their derivatives by q0 and q1.
@@ -320,48 +389,50 @@ where
         &self,
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
-    ) -> LegendreDerivatives<L::Scalar, N>
-    where
-        R: ClosedForm,
-    {
-        self.system.legendre_derivatives(q0, q1, self.h)
+    ) -> LegendreDerivatives<L::Scalar, N> {
+        {
+            let segment = self.between(q0, q1);
+            let l = self.system.discrete_lagrangian_derivatives(&segment);
+            LegendreDerivatives::from_terms(&l, &self.system.discrete_force_derivatives(&segment))
+        }
     }
 
     /// Left side of the forced discrete Euler–Lagrange equation at q1, 0 along solutions:
-    /// [`Discrete::del_residual`].
+    /// D2 L_d(q0, q1) + f_d⁺(q0, q1) + D1 L_d(q1, q2) + f_d⁻(q1, q2).
+    ///
+    /// Of a system at a time t, a view, the second segment is that of t + h.
     pub fn del_residual(
         &self,
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
         q2: &SVector<L::Scalar, N>,
-    ) -> SVector<L::Scalar, N>
-    where
-        R: ClosedForm,
-    {
-        self.system.del_residual(q0, q1, q2, self.h)
+    ) -> SVector<L::Scalar, N> {
+        let (before, after) = (self.between(q0, q1), self.between(q1, q2));
+        self.system.momenta(&before).p1 - self.system.later(self.h, |system| system.momenta(&after).p0)
     }
 
     /// Energy on the segment: E_L at the points and velocity that the rule sees.
-    pub fn segment_energy(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
-    where
-        R: ClosedForm,
-    {
-        self.system.segment_energy(q0, q1, self.h)
+    pub fn segment_energy(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar {
+        self.system.segment_energy(&self.between(q0, q1))
+    }
+
+    pub(crate) fn between(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+    ) -> Segment<L::Scalar, N> {
+        Segment::between(q0, q1, self.h)
     }
 }
 
 /// The discrete objects of a Rayleigh system on a segment (q0, q1).
 impl<L, R, const N: usize> Discretised<'_, L, R, N>
 where
-    L: Discrete<R, N>,
+    L: DiscreteRayleigh<R, N>,
 {
     /// R_d(q0, q1).
-    pub fn discrete_rayleigh(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
-    where
-        R: ClosedForm,
-        L: DiscreteRayleigh<R, N>,
-    {
-        self.system.discrete_rayleigh(q0, q1, self.h)
+    pub fn discrete_rayleigh(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar {
+        self.system.discrete_rayleigh(&self.between(q0, q1))
     }
 
     /// R_d with D1, D2, D11, D12, D22.
@@ -369,29 +440,17 @@ where
         &self,
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
-    ) -> Derivatives<L::Scalar, N>
-    where
-        R: ClosedForm,
-        L: DiscreteRayleigh<R, N>,
-    {
-        self.system.discrete_rayleigh_derivatives(q0, q1, self.h)
+    ) -> Derivatives<L::Scalar, N> {
+        self.system.discrete_rayleigh_derivatives(&self.between(q0, q1))
     }
 
     /// L_d⁺ = L_d + R_d.
-    pub fn modified_plus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
-    where
-        R: ClosedForm,
-        L: DiscreteRayleigh<R, N>,
-    {
-        self.system.modified_plus(q0, q1, self.h)
+    pub fn modified_plus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar {
+        self.system.modified_plus(&self.between(q0, q1))
     }
 
     /// L_d⁻ = L_d − R_d.
-    pub fn modified_minus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
-    where
-        R: ClosedForm,
-        L: DiscreteRayleigh<R, N>,
-    {
-        self.system.modified_minus(q0, q1, self.h)
+    pub fn modified_minus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar {
+        self.system.modified_minus(&self.between(q0, q1))
     }
 }

@@ -5,7 +5,7 @@ pub(crate) mod clocks;
 pub(crate) mod newton;
 
 use crate::numbers::{Elementary, EntriesOfMembers, MemberVector, Members, NewtonMatrix};
-use crate::step::{Discrete, Memory, State, VelocityHistory};
+use crate::step::{ClosedForm, Discrete, Flow, Fused, Memory, State, VelocityHistory};
 
 /// A discrete system whose step's equation is known of several members at once: what `lanes = midpoint`
 /// generates.
@@ -15,7 +15,7 @@ use crate::step::{Discrete, Memory, State, VelocityHistory};
     note = "add `lanes = midpoint` to the attribute: `#[rayleigh_system(rule = midpoint, lanes = midpoint)]`"
 )]
 pub trait DiscreteInLanes<R, const N: usize>:
-    Sized + Discrete<R, N, Scalar: Elementary, Memory: MemoryInLanes<Self, R, N>>
+    Sized + ClosedForm<R, N, Scalar: Elementary, Memory: MemoryInLanes<Self, R, N>> + Discrete<R, N>
 {
     /// The fields of W systems, and terms of the equation that depend on these alone.
     type Fields<const W: usize>: Copy + core::fmt::Debug;
@@ -36,7 +36,7 @@ pub trait DiscreteInLanes<R, const N: usize>:
         *fields
     }
 
-    /// [`step_kernel`](Discrete::step_kernel) of each member, p0 and the entries of the matrix, to the last
+    /// [`step_kernel`](crate::rules::Fused::step_kernel) of each member, p0 and the entries of the matrix, to the last
     /// bit.
     fn step_kernel_in_lanes<const W: usize>(
         fields: &Self::Fields<W>,
@@ -45,7 +45,7 @@ pub trait DiscreteInLanes<R, const N: usize>:
         h: Self::Scalar,
     ) -> KernelOfMembers<Self::Matrix, Self::Scalar, N, W>;
 
-    /// [`momenta`](Discrete::momenta) of each member, p0 and p1, to the last bit.
+    /// [`momenta`](crate::rules::Fused::momenta) of each member, p0 and p1, to the last bit.
     fn momenta_in_lanes<const W: usize>(
         fields: &Self::Fields<W>,
         q0: &MemberVector<Self::Scalar, N, W>,
@@ -60,15 +60,15 @@ type KernelOfMembers<M, S, const N: usize, const W: usize> =
 
 /// A matrix that is kept, and its factors.
 pub(crate) type KeptOf<'m, L, R, const N: usize> = (
-    &'m <L as Discrete<R, N>>::Matrix,
-    &'m <<L as Discrete<R, N>>::Matrix as NewtonMatrix<<L as crate::system::Lagrangian<N>>::Scalar, N>>::Factored,
+    &'m <L as Fused<R, N>>::Matrix,
+    &'m <<L as Fused<R, N>>::Matrix as NewtonMatrix<<L as crate::system::Lagrangian<N>>::Scalar, N>>::Factored,
 );
 
 /// The memory of one of several members that step at once by a rule solved for v̄: its velocities are kept
 /// with those of the others, all else here.
 pub trait MemoryInLanes<L, R, const N: usize>: Memory<L, R, N> + Copy + core::fmt::Debug
 where
-    L: Discrete<R, N>,
+    L: Fused<R, N> + Flow<R, N>,
 {
     /// Whether a matrix may be kept.
     const KEEPS: bool;
@@ -98,7 +98,7 @@ where
 
 impl<L, R, const N: usize> MemoryInLanes<L, R, N> for VelocityHistory<L::Scalar, N>
 where
-    L: Discrete<R, N>,
+    L: Fused<R, N> + Flow<R, N>,
 {
     const KEEPS: bool = false;
 

@@ -4,6 +4,7 @@ use nalgebra::SVector;
 
 use crate::numbers::{Scalar, linear};
 use crate::step::cause::explained_by_lagrangian;
+use crate::step::equation::Alone;
 use crate::step::regular::{beside_velocity, require_regular};
 use crate::step::{
     State, StepError, StepKernel, newton,
@@ -79,13 +80,15 @@ impl<S: Scalar, const N: usize> State<S, N> {
     ) -> Result<SVector<S, N>, StepError> {
         let rest = nalgebra::zero();
         // 𝔽L is the limit h → 0 of the discrete transforms.
-        let transform = |q: &SVector<S, N>, v: &SVector<S, N>| {
-            let l = derivatives_apart(system, q, v);
-            StepKernel { p0: l.d2, matrix: l.d22 }
+        let equation = Alone {
+            kernel: |q: &SVector<S, N>, v: &SVector<S, N>| {
+                let l = derivatives_apart(system, q, v);
+                StepKernel { p0: l.d2, matrix: l.d22 }
+            },
+            momentum: |q: &SVector<S, N>, v: &SVector<S, N>| system.lagrangian_gradient(q, v).d2,
+            inertia: |q: &SVector<S, N>, v: &SVector<S, N>| derivatives_apart(system, q, v).d22,
         };
-        let momentum = |q: &SVector<S, N>, v: &SVector<S, N>| system.lagrangian_gradient(q, v).d2;
-        let mass = |q: &SVector<S, N>, v: &SVector<S, N>| derivatives_apart(system, q, v).d22;
-        newton::root_from_rest(&transform, &momentum, &mass, self, error).map_err(|error| match error {
+        newton::root_from_rest(&equation, self, error).map_err(|error| match error {
             StepError::NoRealSolution { residual, .. } | StepError::NotConverged { residual, .. } => {
                 StepError::NoVelocity { residual }
             }

@@ -114,16 +114,6 @@ pub struct StateBy<S, const N: usize, const M: usize> {
 
 linear!(StateBy<M> { q, p });
 
-/// The derivatives of one step; M is the number of inputs, 0 where there are none.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Linearization<S, const N: usize, const M: usize = 0> {
-    /// The step matrix A = ∂(q1, p1)/∂(q0, p0).
-    pub a: PhaseMatrix<S, N>,
-    /// B = ∂(q1, p1)/∂u, the input being held over the step.
-    pub b: StateBy<S, N, M>,
-}
-
 impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
     /// From the derivatives of L_d and of f_d.
     #[must_use]
@@ -138,22 +128,29 @@ impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
     }
 }
 
+/// A and B of a step, or of a period; M is the number of inputs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Linearization<S, const N: usize, const M: usize = 0> {
+    /// The step matrix A = ∂(q1, p1)/∂(q0, p0).
+    pub a: PhaseMatrix<S, N>,
+    /// B = ∂(q1, p1)/∂u, the input being held over the step.
+    pub b: StateBy<S, N, M>,
+}
+
 impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
-    /// The derivatives of (q1, p1), (q0, p0) being held, by quantities that move the momenta by `momenta` at
-    /// fixed configurations.
+    /// The step matrix A = ∂(q1, p1)/∂(q0, p0).
     ///
     /// # Errors
     /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular; [`StepError::NonFinite`] where a
     /// derivative is no number.
-    pub fn answer<const M: usize>(
-        &self,
-        momenta: &MomentaBy<S, N, M>,
-    ) -> Result<StateBy<S, N, M>, StepError> {
-        self.answer_with(&invert(&self.p0_by_q1)?, momenta)
+    pub fn step_matrix(&self) -> Result<PhaseMatrix<S, N>, StepError> {
+        self.step_matrix_with(&invert(&self.p0_by_q1)?)
     }
 
-    /// As [`answer`](Self::answer), with K01⁻¹ at hand.
-    pub(crate) fn answer_with<const M: usize>(
+    /// The derivatives of (q1, p1), (q0, p0) being held, by quantities that move the momenta by `momenta` at
+    /// fixed configurations; with K01⁻¹ at hand.
+    pub(crate) fn answer<const M: usize>(
         &self,
         q_by_p: &SMatrix<S, N, N>,
         momenta: &MomentaBy<S, N, M>,
@@ -165,8 +162,8 @@ impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
         Ok(StateBy { q, p })
     }
 
-    /// A, with K01⁻¹ at hand.
-    pub(crate) fn step_matrix(&self, q_by_p: &SMatrix<S, N, N>) -> Result<PhaseMatrix<S, N>, StepError> {
+    /// [`step_matrix`](Self::step_matrix), with K01⁻¹ at hand.
+    pub(crate) fn step_matrix_with(&self, q_by_p: &SMatrix<S, N, N>) -> Result<PhaseMatrix<S, N>, StepError> {
         let q_by_q = -(q_by_p * self.p0_by_q0);
         let a = PhaseMatrix {
             q_by_q,
@@ -177,32 +174,6 @@ impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
         let blocks = [&a.q_by_q, &a.q_by_p, &a.p_by_q, &a.p_by_p];
         blocks.into_iter().try_for_each(|block| StepError::require_finite(block, Quantity::Derivatives))?;
         Ok(a)
-    }
-}
-
-impl<S: Scalar, const N: usize> Linearization<S, N> {
-    /// The step matrix from the derivatives of both Legendre transforms.
-    ///
-    /// # Errors
-    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular; [`StepError::NonFinite`] where a
-    /// derivative is no number.
-    pub fn from_legendre(k: &LegendreDerivatives<S, N>) -> Result<Self, StepError> {
-        Self::with_input(k, &MomentaBy::zero())
-    }
-}
-
-impl<S: Scalar, const N: usize, const M: usize> Linearization<S, N, M> {
-    /// The derivatives of the step from those of both Legendre transforms, and of the momenta by the input.
-    ///
-    /// # Errors
-    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular; [`StepError::NonFinite`] where a
-    /// derivative is no number.
-    pub fn with_input(
-        k: &LegendreDerivatives<S, N>,
-        by_input: &MomentaBy<S, N, M>,
-    ) -> Result<Self, StepError> {
-        let q_by_p = invert(&k.p0_by_q1)?;
-        Ok(Self { a: k.step_matrix(&q_by_p)?, b: k.answer_with(&q_by_p, by_input)? })
     }
 }
 

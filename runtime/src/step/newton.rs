@@ -12,10 +12,12 @@
 //! from it is shorter (`nearer`; compare P. Deuflhard, Newton Methods for Nonlinear Problems,
 //! 2004, on tests in the unknowns).
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
 use crate::numbers::{NewtonMatrix, Scalar};
-use crate::step::{Momenta, Report, State, StepError, StepKernel};
+pub(crate) use crate::step::equation::Equation;
+use crate::step::equation::StepEquation;
+use crate::step::{Momenta, Report, Segment, State, StepError};
 
 mod at_length;
 mod bounded;
@@ -25,7 +27,7 @@ pub(crate) use crate::numbers::nonlinear::{
 };
 use crate::numbers::nonlinear::{Room, Unsolved, Way, largest};
 use crate::numbers::slices::{vector, write};
-pub(crate) use at_length::StepEquations;
+pub(crate) use at_length::{NotSolved, StepProblem};
 pub(crate) use bounded::bounded;
 pub(crate) use rounding::{estimated_floor, held_against, held_by_weights, is_small_beside};
 
@@ -39,48 +41,26 @@ pub(crate) struct Solution<S, const N: usize> {
 /// The undamped method's iterations: from a guess this far off the careful one goes on.
 pub(crate) const QUICK_ITERATIONS: u32 = 8;
 
-/// The kind of the equation p0(q, v) = p, as known before it is solved.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Equation {
-    /// Linear in v: the first correction leads to the root.
-    Linear,
-    /// Any equation.
-    General,
-}
-
-/// The v with `momentum`(q, v) = p at the `state` (q, p): an equation alone, at whose root no other momentum
-/// is asked for.
-///
-/// `evaluate` gives the momentum and the Newton matrix, `inertia` the mass matrix, the metric that tells
-/// which of two velocities is longer; configurations on the way are q plus a share of `h` v, with h = 0 at q
-/// itself.
-///
-/// Functions by reference: with `F = &G` for one of them, calls of it would not be inlined where `F` is
-/// behind a pointer as well.
+/// The v with momentum(q, v) = p at the `state` (q, p). Configurations on the way are q plus a share of `h` v,
+/// with h = 0 at q itself.
 #[cfg(feature = "theory")]
 #[inline]
-pub(crate) fn root<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
-    evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
-    momentum: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
-    inertia: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N>,
+pub(crate) fn root<S: Scalar, const N: usize>(
+    equation: &impl StepEquation<S, N>,
     state: &State<S, N>,
     h: S,
     start: SVector<S, N>,
 ) -> Result<SVector<S, N>, StepError> {
-    match quick(Equation::General, evaluate, &alone(momentum), state, start) {
+    match quick(equation, state, h, start) {
         Ok(solution) => Ok(solution.unknown),
-        Err(Reached { v, iterations }) => {
-            root_by(Way::Damped { iterations }, evaluate, momentum, inertia, (state, h), &v)
-        }
+        Err(Reached { v, iterations }) => root_by(Way::Damped { iterations }, equation, (state, h), &v),
     }
 }
 
 /// The root of an equation alone, from rest by the damped method. Where that has led to an `error`, a matrix
 /// that is singular there or not finite, from away from rest.
-pub(crate) fn root_from_rest<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
-    evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
-    momentum: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
-    inertia: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N>,
+pub(crate) fn root_from_rest<S: Scalar, const N: usize>(
+    equation: &impl StepEquation<S, N>,
     state: &State<S, N>,
     error: Option<StepError>,
 ) -> Result<SVector<S, N>, StepError> {
@@ -92,30 +72,18 @@ pub(crate) fn root_from_rest<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         }
         Some(other) => return Err(other),
     };
-    root_by(way, evaluate, momentum, inertia, (state, S::zero()), &nalgebra::zero())
+    root_by(way, equation, (state, S::zero()), &nalgebra::zero())
 }
 
 /// The root of an equation alone, at length by this way.
-fn root_by<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+fn root_by<S: Scalar, const N: usize>(
     way: Way<'_, S>,
-    evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
-    momentum: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
-    inertia: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N>,
+    equation: &impl StepEquation<S, N>,
     (state, h): (&State<S, N>, S),
     start: &SVector<S, N>,
 ) -> Result<SVector<S, N>, StepError> {
-    let alone = alone(momentum);
-    let of = StepEquations {
-        kernel: &|q, v, _| evaluate(q, v),
-        momenta: &|q, v, _| alone(q, v),
-        inertia,
-        cancelling: &|_, _, _| nalgebra::zero(),
-        #[cfg(feature = "std")]
-        cause: &|_, _, _| None,
-        state,
-        h,
-    };
-    Ok(of.solved(way, start)?.unknown)
+    let of = StepProblem { equation, state, h };
+    Ok(of.solved(way, start).map_err(|lost| lost.error)?.unknown)
 }
 
 /// Whether the `residual` vanishes with the velocity in every coordinate, so that rest is its root.
@@ -128,17 +96,6 @@ pub(crate) fn is_rest<S: Scalar, const N: usize>(
         write(into, &residual(&vector(v)));
     };
     S::is_rest(residual, p.as_slice(), Room::new(at_length::room::<S, N>().as_flattened_mut(), N))
-}
-
-/// One momentum in the place of both.
-#[inline]
-fn alone<S: Scalar, const N: usize>(
-    momentum: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
-) -> impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N> {
-    move |q, v| {
-        let p = momentum(q, v);
-        Momenta { p0: p, p1: p }
-    }
 }
 
 /// Where the undamped method left off: the last iterate that lowered the residual, and the corrections that
@@ -155,20 +112,20 @@ pub(crate) struct Reached<S, const N: usize> {
 /// rounding: at rest h v̄ may be less than the last place of q, which forces then do not see. On the way
 /// residuals are weighed by the floor at the guess; the root is held against its own.
 #[inline]
-pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
-    kind: Equation,
-    evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
-    finish: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
+pub(crate) fn quick<S: Scalar, const N: usize>(
+    equation: &impl StepEquation<S, N>,
     state: &State<S, N>,
+    h: S,
     guess: SVector<S, N>,
 ) -> Result<Solution<S, N>, Reached<S, N>> {
     let State { q, p } = state;
+    let kind = equation.kind();
     let mut v = guess;
     let mut weights: SVector<S, N> = nalgebra::zero();
     let (mut last_size, mut slow) = (S::zero(), S::constant(SLOW));
     let mut reached = Reached { v, iterations: 0 };
     for iterations in 0..QUICK_ITERATIONS {
-        let kernel = evaluate(q, &v);
+        let kernel = equation.kernel(&Segment { q0: *q, v, h });
         let residual = kernel.p0 - p;
         let Ok(correction) = kernel.matrix.solve(&residual) else { break };
         let next = v - correction;
@@ -192,7 +149,7 @@ pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         reached = Reached { v, iterations };
         v = next;
         if close {
-            let momenta = finish(q, &v);
+            let momenta = equation.momenta(&Segment { q0: *q, v, h });
             let left = momenta.p0 - p;
             let floor = estimated_floor(p, &kernel.matrix, &v);
             let (residual, floor, is_root) = held_against(&left, &floor);

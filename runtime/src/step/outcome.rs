@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::Scalar;
-use crate::step::{Momenta, State, StepError, StepKernel};
+use crate::step::{Momenta, State, StepError};
 
 /// How a step went.
 ///
@@ -78,15 +78,14 @@ impl<S: Scalar, const N: usize> Step<S, N> {
     }
 }
 
-/// A step, and derivatives of it.
-pub type StepWith<S, const N: usize, D> = (Step<S, N>, D);
-
 /// The equation of a step at the step that was taken; see
 /// [`Discrete::equation_at`](crate::Discrete::equation_at).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EquationAt<S, const N: usize, M> {
-    /// p0 and the Newton matrix.
-    pub kernel: StepKernel<S, N, M>,
+pub struct EquationAt<S, const N: usize> {
+    /// p0.
+    pub p0: SVector<S, N>,
+    /// The Newton matrix ∂p0/∂v̄.
+    pub matrix: SMatrix<S, N, N>,
     /// ∂²L/∂v² at q0 and the mean velocity.
     pub mass: SMatrix<S, N, N>,
     /// Whether the determinant of the equations has the sign that it has for small h.

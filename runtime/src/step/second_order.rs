@@ -15,108 +15,55 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::numbers::Hessian;
-use crate::step::discrete::explained_on;
-use crate::step::{Discrete, SolvedForVelocity, State, StepError, StepWith, invert};
-use crate::system::{Lagrangian, SecondOrder};
+use crate::numbers::{Hessian, Scalar};
+use crate::step::{LegendreDerivatives, Linearizable, State, StepError};
+use crate::system::SecondOrder;
 
-/// The change of p0 with the input, by rule `R`: systems without an input have none of it.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` does not say how p0 changes with its input by `{R}`",
-    label = "∂p0/∂u is missing",
-    note = "write `impl StartByInput<{R}, {N}, {M}> for {Self}`, whose `p0_by_input` is −∂f_d⁻/∂u"
-)]
-pub trait StartByInput<R, const N: usize, const M: usize>: Lagrangian<N> {
-    /// ∂p0/∂u at fixed ends, on the segment from q0 with mean velocity `v`.
-    fn p0_by_input(
-        &self,
-        q0: &SVector<Self::Scalar, N>,
-        v: &SVector<Self::Scalar, N>,
-        h: Self::Scalar,
-    ) -> SMatrix<Self::Scalar, N, M>;
-}
-
-/// Of a system without an input there is nothing to say.
-impl<R: SolvedForVelocity, L: Lagrangian<N>, const N: usize> StartByInput<R, N, 0> for L {
-    #[inline]
-    fn p0_by_input(
-        &self,
-        _q0: &SVector<L::Scalar, N>,
-        _v: &SVector<L::Scalar, N>,
-        _h: L::Scalar,
-    ) -> SMatrix<L::Scalar, N, 0> {
-        SMatrix::zeros()
-    }
-}
-
-/// Second derivatives of both momenta of a segment by rule `R`.
+/// Second derivatives of the step of a system by rule `R`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no second derivatives of its step by `{R}`",
     label = "no second derivatives",
     note = "ask for them in the attribute: `#[rayleigh_system(step_derivatives = second)]`"
 )]
 pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>:
-    Discrete<R, N> + SecondOrder<N, M> + StartByInput<R, N, M>
+    Linearizable<R, N> + SecondOrder<N, M>
 {
-    /// Second derivatives by (q0, q1, u) of `at_start`·p0 + `at_end`·p1, on the segment from q0 with mean
-    /// velocity `v`.
-    fn momenta_along(
-        &self,
-        q0: &SVector<Self::Scalar, N>,
-        v: &SVector<Self::Scalar, N>,
-        h: Self::Scalar,
-        at_start: &SVector<Self::Scalar, N>,
-        at_end: &SVector<Self::Scalar, N>,
-    ) -> Hessian<Self::Scalar, N, M>;
-
-    /// Second derivatives of the step on the segment (`q0`, `q1`):
-    /// [`Discretised::step_hessian`](crate::Discretised::step_hessian).
+    /// Second derivatives of `covector`.q·q1 + `covector`.p·p1 by (q0, p0, u).
     ///
     /// # Errors
-    /// Those of [`Discrete::linearization`].
-    fn step_hessian(
-        &self,
-        q0: &SVector<Self::Scalar, N>,
-        q1: &SVector<Self::Scalar, N>,
-        h: Self::Scalar,
+    /// [`StepError::NonFinite`].
+    fn hessian(
+        at: &Self::Linearized<'_>,
         covector: &State<Self::Scalar, N>,
-    ) -> Result<StepHessian<Self::Scalar, N, M>, StepError> {
-        let k = self.legendre_derivatives(q0, q1, h);
-        // ∂q1/∂p0, ∂q1/∂q0, ∂q1/∂u.
-        let by_p = invert(&k.p0_by_q1).map_err(|error| explained_on(self, q0, &((q1 - q0) / h), h, error))?;
-        let by_q = -(by_p * k.p0_by_q0);
-        let v = (q1 - q0) / h;
-        let by_u = -(by_p * self.p0_by_input(q0, &v, h));
-        let at_start = -(by_p.transpose() * (covector.q + k.p1_by_q1.transpose() * covector.p));
-        let phi = self.momenta_along(q0, &v, h, &at_start, &covector.p);
-        let Hessian { d11, d12, d22, d1u, d2u, duu } = phi;
+    ) -> Result<StepHessian<Self::Scalar, N, M>, StepError>;
+}
+
+impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
+    /// Second derivatives of the step, with K01⁻¹, ∂p0/∂u and, as a function of the covectors at both ends,
+    /// the second derivatives of at_start·p0 + at_end·p1 at hand.
+    pub(crate) fn step_hessian<const M: usize>(
+        &self,
+        by_p: &SMatrix<S, N, N>,
+        p0_by_input: &SMatrix<S, N, M>,
+        covector: &State<S, N>,
+        momenta_along: impl FnOnce([&SVector<S, N>; 2]) -> Hessian<S, N, M>,
+    ) -> StepHessian<S, N, M> {
+        // ∂q1/∂q0, ∂q1/∂u.
+        let by_q = -(by_p * self.p0_by_q0);
+        let by_u = -(by_p * p0_by_input);
+        let at_start = -(by_p.transpose() * (covector.q + self.p1_by_q1.transpose() * covector.p));
+        let Hessian { d11, d12, d22, d1u, d2u, duu } = momenta_along([&at_start, &covector.p]);
         // ∂²Φ/∂q1∂z with q1 carried along.
         let carried_u = d2u + d22 * by_u;
         let carried_q = d12.transpose() + d22 * by_q;
-        Ok(StepHessian {
+        StepHessian {
             qq: d11 + d12 * by_q + by_q.transpose() * carried_q,
             qp: carried_q.transpose() * by_p,
             pp: by_p.transpose() * d22 * by_p,
             qu: d1u + d12 * by_u + by_q.transpose() * carried_u,
             pu: by_p.transpose() * carried_u,
             uu: duu + d2u.transpose() * by_u + by_u.transpose() * carried_u,
-        })
-    }
-
-    /// The step with its second derivatives:
-    /// [`Discretised::step_with_hessian`](crate::Discretised::step_with_hessian).
-    ///
-    /// # Errors
-    /// Those of [`Flow::linearized_step`](crate::step::Flow::linearized_step).
-    fn step_with_hessian(
-        &self,
-        state: &State<Self::Scalar, N>,
-        h: Self::Scalar,
-        guess: Option<&SVector<Self::Scalar, N>>,
-        covector: &State<Self::Scalar, N>,
-    ) -> Result<StepWith<Self::Scalar, N, StepHessian<Self::Scalar, N, M>>, StepError> {
-        let step = self.step(state, h, guess)?;
-        Ok((step, self.step_hessian(&state.q, &step.state.q, h, covector)?))
+        }
     }
 }
 

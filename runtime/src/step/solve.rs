@@ -1,75 +1,54 @@
 //! From the equation of a step to the step.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
-use crate::numbers::{NewtonMatrix, Scalar, nonlinear::Way};
+use crate::numbers::{Scalar, nonlinear::Way};
 use crate::step::cause::{explained, explained_by_lagrangian};
+use crate::step::equation::{Equation, StepEquation};
 use crate::step::{
-    BoundedStep, Momenta, State, Step, StepError, StepKernel, newton,
-    newton::{Equation, StepEquations},
+    BoundedStep, Segment, State, Step, StepError, newton,
+    newton::{NotSolved, StepProblem},
     require_regular,
 };
 use crate::system::{Lagrangian, Quantity, derivatives_apart};
 
-/// [`Flow::step`](crate::step::Flow::step) with the step's equation and both momenta as functions of (q0, v̄,
-/// h), the mass that the velocity has in them, the sizes of terms that cancel in p0, and the
-/// cause of numbers that are not finite.
+/// [`Flow::step`](crate::step::Flow::step) by the step's `equation`.
 #[inline]
-pub(crate) fn step_by<L, M, const N: usize>(
+pub(crate) fn step_by<L, const N: usize>(
     system: &L,
-    kind: Equation,
-    (kernel, momenta, inertia, cancelling, cause): (
-        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> StepKernel<L::Scalar, N, M>,
-        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> Momenta<L::Scalar, N>,
-        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N>,
-        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> SVector<L::Scalar, N>,
-        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> Option<StepError>,
-    ),
+    equation: &impl StepEquation<L::Scalar, N>,
     state: &State<L::Scalar, N>,
     h: L::Scalar,
     guess: Option<&SVector<L::Scalar, N>>,
 ) -> Result<Step<L::Scalar, N>, StepError>
 where
     L: Lagrangian<N> + ?Sized,
-    M: NewtonMatrix<L::Scalar, N>,
 {
     require_step_size(h)?;
     let start = match guess {
         Some(v) => *v,
-        None => first_guess(system, kind, state)?,
+        None => first_guess(system, equation.kind(), state)?,
     };
-    #[cfg(not(feature = "std"))]
-    let _ = &cause;
-    let evaluate = |q: &_, v: &_| kernel(q, v, h);
-    let finish = |q: &_, v: &_| momenta(q, v, h);
-    let solution = match newton::quick(kind, &evaluate, &finish, state, start) {
+    let solution = match newton::quick(equation, state, h, start) {
         Ok(solution) => solution,
         Err(reached) => {
-            let (kernel, momenta, inertia, cancelling) = (&kernel, &momenta, &inertia, &cancelling);
-            let of = StepEquations {
-                kernel,
-                momenta,
-                inertia,
-                cancelling,
-                #[cfg(feature = "std")]
-                cause: &cause,
-                state,
-                h,
-            };
+            let problem = StepProblem { equation, state, h };
             // A guess is the caller's: from elsewhere there may be another root.
             let way = match guess {
                 Some(_) => Way::Damped { iterations: reached.iterations },
                 None => Way::Every { iterations: reached.iterations, start: start.as_slice() },
             };
-            of.solved(way, &reached.v).map_err(|error| {
+            problem.solved(way, &reached.v).map_err(|NotSolved { error, lost }| {
+                let error = explained(error, &|| equation.cause(&lost?));
                 in_arguments(state, guess).unwrap_or_else(|| of_any_step(system, state, error))
             })?
         }
     };
     // An argument that is not finite shows here or has failed above: none is looked at before.
     Step::completed(state, h, solution.unknown, &solution.momenta, solution.report).map_err(|error| {
-        in_arguments(state, guess)
-            .unwrap_or_else(|| explained(error, &|| cause(&state.q, &solution.unknown, h)))
+        in_arguments(state, guess).unwrap_or_else(|| {
+            explained(error, &|| equation.cause(&Segment { q0: state.q, v: solution.unknown, h }))
+        })
     })
 }
 
@@ -103,14 +82,9 @@ fn first_guess<L: Lagrangian<N> + ?Sized, const N: usize>(
 }
 
 /// [`BoundedFlow::step_within`](crate::step::BoundedFlow::step_within), likewise.
-pub(crate) fn step_within_by<L, M, const N: usize>(
+pub(crate) fn step_within_by<L, const N: usize>(
     system: &L,
-    kind: Equation,
-    (kernel, momenta, cause): (
-        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> StepKernel<L::Scalar, N, M>,
-        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> Momenta<L::Scalar, N>,
-        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> Option<StepError>,
-    ),
+    equation: &impl StepEquation<L::Scalar, N>,
     state: &State<L::Scalar, N>,
     h: L::Scalar,
     guess: Option<&SVector<L::Scalar, N>>,
@@ -118,18 +92,19 @@ pub(crate) fn step_within_by<L, M, const N: usize>(
 ) -> Result<BoundedStep<L::Scalar, N>, StepError>
 where
     L: Lagrangian<N> + ?Sized,
-    M: NewtonMatrix<L::Scalar, N>,
 {
     require_step_size(h)?;
     state.require_finite()?;
     let guess = match guess {
         Some(v) => *v,
-        None => first_guess(system, kind, state)?,
+        None => first_guess(system, equation.kind(), state)?,
     };
     StepError::require_finite(&guess, Quantity::Velocity)?;
-    let (solution, converged) = newton::bounded(kind, iterations, (kernel, momenta, &cause), state, guess)?;
-    let step = Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)
-        .map_err(|error| explained(error, &|| cause(&state.q, &solution.unknown)))?;
+    let (solution, converged) = newton::bounded(equation, iterations, state, h, guess)?;
+    let step =
+        Step::completed(state, h, solution.unknown, &solution.momenta, solution.report).map_err(|error| {
+            explained(error, &|| equation.cause(&Segment { q0: state.q, v: solution.unknown, h }))
+        })?;
     Ok(BoundedStep { step, converged })
 }
 

@@ -6,7 +6,7 @@ use crate::numbers::comparison::{self, Apart, MOMENTA};
 use crate::numbers::nonlinear::Room;
 use crate::numbers::slices::{vector, write};
 use crate::numbers::{Derivatives, Scalar, linear};
-use crate::step::{Discrete, Momenta, State, StepError};
+use crate::step::{ClosedForm, Fused, Momenta, Segment, State, StepError};
 use crate::system::{
     Compared, Function, GeneratedDiffers, Lagrangian, derivatives_apart,
     verification::{around, has_two_values, slopes_around},
@@ -88,16 +88,16 @@ fn corrected<S: Scalar, const N: usize>(at_rest: &Derivatives<S, N>, p: &SVector
     linear::solve_apart(&at_rest.d22, &right).unwrap_or(v)
 }
 
-/// Momenta of a segment from q0 with mean velocity v̄, by two ways to compute them.
-type TwoWays<'a, S, const N: usize> = &'a dyn Fn(&SVector<S, N>, &SVector<S, N>) -> [Momenta<S, N>; 2];
+/// Momenta of a segment, by two ways to compute them.
+type TwoWays<'a, S, const N: usize> = &'a dyn Fn(&Segment<S, N>) -> [Momenta<S, N>; 2];
 
-/// D1 L_d, D2 L_d, f_d⁻ and f_d⁺ at (q0, q1).
-type ByDerivatives<'a, S, const N: usize> = &'a dyn Fn(&SVector<S, N>, &SVector<S, N>) -> [SVector<S, N>; 4];
+/// D1 L_d, D2 L_d, f_d⁻ and f_d⁺ on a segment.
+type ByDerivatives<'a, S, const N: usize> = &'a dyn Fn(&Segment<S, N>) -> [SVector<S, N>; 4];
 
 /// Verifies p0 and p1 of the step from `state`, as `generated`, against the derivatives of L_d and f_d.
 #[cold]
 #[inline(never)]
-pub(crate) fn verify_momenta<L: Discrete<R, N> + ?Sized, R, const N: usize>(
+pub(crate) fn verify_momenta<L: ClosedForm<R, N> + ?Sized, R, const N: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
     h: L::Scalar,
@@ -109,21 +109,19 @@ pub(crate) fn verify_momenta<L: Discrete<R, N> + ?Sized, R, const N: usize>(
     if !L::WRITTEN_OUT || !cfg!(feature = "std") || is_extreme {
         return Ok(());
     }
-    compare_momenta(&state.q, &velocity(system, state), h, generated, &|q0, q1| {
-        let (l, f) = (system.discrete_lagrangian_derivatives(q0, q1, h), system.discrete_force(q0, q1, h));
+    compare_momenta(&state.q, &velocity(system, state), h, generated, &|segment| {
+        let (l, f) = (system.discrete_lagrangian_derivatives(segment), system.discrete_force(segment));
         [l.d1, l.d2, f.minus, f.plus]
     })
 }
 
 /// p0 as the step's equation has it, and both momenta as the step has them.
-pub(crate) fn of_equation_and_step<L: Discrete<R, N> + ?Sized, R, const N: usize>(
+pub(crate) fn of_equation_and_step<L: Fused<R, N> + ?Sized, R, const N: usize>(
     system: &L,
-    q0: &SVector<L::Scalar, N>,
-    v: &SVector<L::Scalar, N>,
-    h: L::Scalar,
+    segment: &Segment<L::Scalar, N>,
 ) -> [Momenta<L::Scalar, N>; 2] {
-    let momenta = system.momenta(q0, v, h);
-    [Momenta { p0: system.step_kernel(q0, v, h).p0, ..momenta }, momenta]
+    let momenta = system.momenta(segment);
+    [Momenta { p0: system.step_kernel(segment).p0, ..momenta }, momenta]
 }
 
 /// Fails where p0 or p1 is off beside (q, v): [`momenta_apart`](crate::numbers::comparison::Compares), for
@@ -139,10 +137,12 @@ fn compare_momenta<S: Scalar, const N: usize>(
 ) -> Result<(), GeneratedDiffers> {
     let ways = comparison::TwoWays {
         generated: &|q0, v, momenta| {
-            let [of_equation, of_step] = generated(&vector(q0), &vector(v));
+            let [of_equation, of_step] = generated(&Segment { q0: vector(q0), v: vector(v), h });
             write_each(momenta, &[of_equation.p0, of_equation.p1, of_step.p0, of_step.p1]);
         },
-        derivatives: &|q0, q1, found| write_each(found, &derivatives(&vector(q0), &vector(q1))),
+        derivatives: &|q0, q1, found| {
+            write_each(found, &derivatives(&Segment::between(&vector(q0), &vector(q1), h)));
+        },
     };
     let mut buffer = [[S::constant(0.0); N]; MOMENTA];
     let room = Room::new(buffer.as_flattened_mut(), N);

@@ -1,17 +1,17 @@
-//! How a step that was taken follows what it depends on, its equations linearised and factored once.
-
-use core::marker::PhantomData;
+//! The derivatives of a step: how its end follows its start, the input and parameters, its equations
+//! linearised and factored once.
 
 use nalgebra::SMatrix;
 
 use crate::step::discrete::explained_on;
 use crate::step::{
-    Discrete, DiscreteDriven, DiscreteParameters, Flow, LegendreDerivatives, PhaseMatrix, SolvedForVelocity,
-    State, StateBy, Step, StepError, invert,
+    ByFormula, ClosedForm, Discrete, DiscreteDriven, DiscreteObjects, DiscreteParameters,
+    DiscreteSecondOrder, Flow, Formulas, LegendreDerivatives, MomentaBy, PhaseMatrix, Segment, State,
+    StateBy, Step, StepError, StepHessian, invert,
 };
 
-/// A method whose step, once taken, can be asked how it follows its start, its input and parameters: rules,
-/// not what is composed of their steps.
+/// A rule whose steps are asked how their end follows their start: rules, not what is composed of their
+/// steps.
 ///
 /// [`StepTaken`] asks.
 #[diagnostic::on_unimplemented(
@@ -19,8 +19,8 @@ use crate::step::{
     label = "rules alone are asked for derivatives here",
     note = "`system.by(method, h).linearized_step(&state)` gives A of compositions and splittings"
 )]
-pub trait Linearizable<M, const N: usize>: Flow<M, N> {
-    /// The equations at the step.
+pub trait Linearizable<M, const N: usize>: Discrete<M, N> {
+    /// The equations at the step, linearised and factored.
     type Linearized<'a>
     where
         Self: 'a;
@@ -39,53 +39,47 @@ pub trait Linearizable<M, const N: usize>: Flow<M, N> {
         h: Self::Scalar,
     ) -> Result<Self::Linearized<'a>, StepError>;
 
+    /// The equations on a segment, whose points are solved for.
+    ///
+    /// # Errors
+    /// Those of [`linearized`](Self::linearized).
+    fn linearized_on<'a>(on: Self::On<'a>) -> Result<Self::Linearized<'a>, StepError>
+    where
+        Self: 'a;
+
     /// A = ∂(q1, p1)/∂(q0, p0).
     ///
     /// # Errors
     /// [`StepError::NonFinite`].
     fn by_state(at: &Self::Linearized<'_>) -> Result<PhaseMatrix<Self::Scalar, N>, StepError>;
-
-    /// B = ∂(q1, p1)/∂u.
-    ///
-    /// # Errors
-    /// [`StepError::NonFinite`].
-    fn by_input<const U: usize>(at: &Self::Linearized<'_>) -> Result<StateBy<Self::Scalar, N, U>, StepError>
-    where
-        Self: DiscreteDriven<M, N, U>;
-
-    /// ∂(q1, p1)/∂θ.
-    ///
-    /// # Errors
-    /// [`StepError::NonFinite`].
-    fn by_parameters<const P: usize>(
-        at: &Self::Linearized<'_>,
-    ) -> Result<StateBy<Self::Scalar, N, P>, StepError>
-    where
-        Self: DiscreteParameters<M, N, P>;
 }
 
 /// The derivatives of both Legendre transforms on the segment of a step, and what dp0 makes of q1.
-pub struct LinearizedSegment<'a, L: Flow<R, N>, R, const N: usize> {
-    system: &'a L,
-    rule: PhantomData<fn() -> R>,
-    start: State<L::Scalar, N>,
-    step: Step<L::Scalar, N>,
-    h: L::Scalar,
-    k: LegendreDerivatives<L::Scalar, N>,
+pub struct LinearizedSegment<'a, L: ClosedForm<R, N>, R, const N: usize> {
+    pub(crate) on: Formulas<'a, L, R, N>,
+    pub(crate) k: LegendreDerivatives<L::Scalar, N>,
     /// K01⁻¹.
-    q_by_p: SMatrix<L::Scalar, N, N>,
+    pub(crate) q_by_p: SMatrix<L::Scalar, N, N>,
 }
 
-impl<L: Discrete<R, N>, R, const N: usize> LinearizedSegment<'_, L, R, N> {
+impl<L: ClosedForm<R, N> + Discrete<R, N>, R, const N: usize> LinearizedSegment<'_, L, R, N> {
+    /// The derivatives of (q1, p1) by what moves the momenta so at fixed ends.
+    pub(crate) fn answer<const M: usize>(
+        &self,
+        momenta: &MomentaBy<L::Scalar, N, M>,
+    ) -> Result<StateBy<L::Scalar, N, M>, StepError> {
+        self.k.answer(&self.q_by_p, momenta).map_err(|error| self.explained(error))
+    }
+
     fn explained(&self, error: StepError) -> StepError {
-        explained_on(self.system, &self.start.q, &self.step.velocity, self.h, error)
+        explained_on::<L, R, N>(self.on.system, self.on.segment(), error)
     }
 }
 
 impl<L, R, const N: usize> Linearizable<R, N> for L
 where
-    R: SolvedForVelocity,
-    L: Discrete<R, N>,
+    R: ByFormula,
+    L: ClosedForm<R, N> + Flow<R, N>,
 {
     type Linearized<'a>
         = LinearizedSegment<'a, L, R, N>
@@ -99,41 +93,48 @@ where
         step: &Step<L::Scalar, N>,
         h: L::Scalar,
     ) -> Result<LinearizedSegment<'a, L, R, N>, StepError> {
-        let k = self.legendre_derivatives(&state.q, &step.state.q, h);
+        Self::linearized_on(self.on(&Segment { q0: state.q, v: step.velocity, h })?)
+    }
+
+    fn linearized_on<'a>(on: Formulas<'a, L, R, N>) -> Result<LinearizedSegment<'a, L, R, N>, StepError>
+    where
+        L: 'a,
+    {
+        let k = on.legendre_derivatives()?;
         let q_by_p =
-            invert(&k.p0_by_q1).map_err(|error| explained_on(self, &state.q, &step.velocity, h, error))?;
-        Ok(LinearizedSegment { system: self, rule: PhantomData, start: *state, step: *step, h, k, q_by_p })
+            invert(&k.p0_by_q1).map_err(|error| explained_on::<L, R, N>(on.system, on.segment(), error))?;
+        Ok(LinearizedSegment { on, k, q_by_p })
     }
 
     fn by_state(at: &LinearizedSegment<'_, L, R, N>) -> Result<PhaseMatrix<L::Scalar, N>, StepError> {
-        at.k.step_matrix(&at.q_by_p).map_err(|error| at.explained(error))
+        at.k.step_matrix_with(&at.q_by_p).map_err(|error| at.explained(error))
     }
+}
 
-    fn by_input<const U: usize>(
-        at: &LinearizedSegment<'_, L, R, N>,
-    ) -> Result<StateBy<L::Scalar, N, U>, StepError>
-    where
-        L: DiscreteDriven<R, N, U>,
-    {
-        let by_input = at.system.momenta_by_input(&at.start.q, &at.step.velocity, at.h);
-        at.k.answer_with(&at.q_by_p, &by_input).map_err(|error| at.explained(error))
-    }
-
-    fn by_parameters<const P: usize>(
-        at: &LinearizedSegment<'_, L, R, N>,
-    ) -> Result<StateBy<L::Scalar, N, P>, StepError>
-    where
-        L: DiscreteParameters<R, N, P>,
-    {
-        let by_parameters = at.system.momenta_by_parameters(&at.start.q, &at.step.velocity, at.h);
-        at.k.answer_with(&at.q_by_p, &by_parameters).map_err(|error| at.explained(error))
-    }
+/// A of a step by a rule that has formulas.
+pub(crate) fn step_matrix<L, R, const N: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    step: &Step<L::Scalar, N>,
+    h: L::Scalar,
+) -> Result<PhaseMatrix<L::Scalar, N>, StepError>
+where
+    L: ClosedForm<R, N> + Discrete<R, N> + ?Sized,
+{
+    let segment = Segment { q0: state.q, v: step.velocity, h };
+    system
+        .on(&segment)?
+        .legendre_derivatives()
+        .and_then(|k| k.step_matrix())
+        .map_err(|error| explained_on::<L, R, N>(system, &segment, error))
 }
 
 /// A step that was taken, and what it can be asked: how its end follows its start, the input and parameters.
 ///
-/// The equations are linearised and factored once, whatever is asked. A run with inputs makes it:
-/// [`DrivenTrajectory::advance_linearized`](crate::run::DrivenTrajectory::advance_linearized).
+/// The equations are linearised and factored once, whatever is asked.
+/// [`Discretised::linearized`](crate::Discretised::linearized) takes such a step, a run with inputs by
+/// [`advance_linearized`](crate::run::DrivenTrajectory::advance_linearized); the step between two ends is
+/// [`DiscreteSegment::linearized`](crate::step::DiscreteSegment::linearized).
 pub struct StepTaken<'a, L, M, const N: usize>
 where
     L: Linearizable<M, N> + 'a,
@@ -156,6 +157,10 @@ where
         Ok(Self { step, linearized: system.linearized(memory, state, &step, h)? })
     }
 
+    pub(crate) fn on(on: L::On<'a>, step: Step<L::Scalar, N>) -> Result<Self, StepError> {
+        Ok(Self { step, linearized: L::linearized_on(on)? })
+    }
+
     /// The step.
     #[must_use]
     pub fn step(&self) -> &Step<L::Scalar, N> {
@@ -170,7 +175,7 @@ where
         L::by_state(&self.linearized)
     }
 
-    /// B = ∂(q1, p1)/∂u, the input being held over the step.
+    /// B = ∂(q1, p1)/∂u, the input being held over the step: of a view, `system.driven(u)`.
     ///
     /// # Errors
     /// [`StepError::NonFinite`].
@@ -190,5 +195,20 @@ where
         L: DiscreteParameters<M, N, P>,
     {
         L::by_parameters(&self.linearized)
+    }
+
+    /// Second derivatives of `covector`.q·q1 + `covector`.p·p1 by (q0, p0, u), of a system with
+    /// `step_derivatives = second`.
+    ///
+    /// # Errors
+    /// [`StepError::NonFinite`].
+    pub fn hessian<const U: usize>(
+        &self,
+        covector: &State<L::Scalar, N>,
+    ) -> Result<StepHessian<L::Scalar, N, U>, StepError>
+    where
+        L: DiscreteSecondOrder<M, N, U>,
+    {
+        L::hessian(&self.linearized, covector)
     }
 }

@@ -64,7 +64,7 @@ use crate::numbers::Scalar;
 use crate::step::{Discrete, Discretised};
 use crate::system::VectorField;
 use crate::theory::{
-    samples::{Segment, Stopped, Tolerance, at_segment},
+    samples::{Pair, Stopped, Tolerance, at_segment},
     verdict::largest,
 };
 
@@ -111,7 +111,7 @@ where
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
     ) -> L::Scalar {
-        self.by.system.legendre_minus(q0, q1, self.by.h).p.dot(&generator.vector(q0))
+        self.by.objects(q0, q1).momenta().p0.dot(&generator.vector(q0))
     }
 
     /// J⁺(q0, q1) = ⟨p1, ξ(q1)⟩, p1 = D2 L_d + f_d⁺.
@@ -121,7 +121,7 @@ where
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
     ) -> L::Scalar {
-        self.by.system.legendre_plus(q0, q1, self.by.h).p.dot(&generator.vector(q1))
+        self.by.objects(q0, q1).momenta().p1.dot(&generator.vector(q1))
     }
 
     /// J⁺ − J⁻ of the segment (q0, q1), by its causes.
@@ -131,7 +131,7 @@ where
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
     ) -> Defect<L::Scalar> {
-        self.by.system.defect(generator, q0, q1, self.by.h).0
+        self.by.objects(q0, q1).defect(generator).0
     }
 
     /// The defect on the k-th segment, NaN where a product of its terms underflows.
@@ -139,9 +139,9 @@ where
         &self,
         k: usize,
         generator: &impl VectorField<N, Scalar = L::Scalar>,
-        Segment { q0, q1 }: &Segment<L::Scalar, N>,
+        Pair { q0, q1 }: &Pair<L::Scalar, N>,
     ) -> Result<Terms, Stopped> {
-        let (defect, size) = at_segment(&self.by, k, |by| by.system.defect(generator, q0, q1, by.h))?;
+        let (defect, size) = at_segment(&self.by, k, |by| by.objects(q0, q1).defect(generator))?;
         Ok(Terms { defect: widened(&defect), size: widened(&size) })
     }
 }
@@ -153,7 +153,7 @@ fn widened<S: Scalar>(of: &Defect<S>) -> Defect<f64> {
 /// Whether ξ moves an end of the segment.
 fn moves_an_end<S: Scalar, const N: usize>(
     generator: &impl VectorField<N, Scalar = S>,
-    segment: &Segment<S, N>,
+    segment: &Pair<S, N>,
 ) -> bool {
     let size = |q| largest(generator.vector(q).iter().map(|entry| entry.widen()));
     size(&segment.q0) != 0.0 || size(&segment.q1) != 0.0

@@ -25,7 +25,7 @@
 //!
 //! ```
 //! use dalembert::rayleigh::{Potential, structure};
-//! use dalembert::samples::{self, Segment};
+//! use dalembert::samples::{self, Pair};
 //! use dalembert::{Midpoint, rayleigh_system};
 //!
 //! struct Drag { c: [f64; 2] }
@@ -46,7 +46,7 @@
 //! assert!(!structure(&Drag { c: [0.5, 0.4] }, Midpoint, 0.1, &segments)?.is_rayleigh());
 //!
 //! // R = ½(vx² + vx vy + vy²), R_d = (h²/2) R, recovered from the force alone.
-//! let potential = Potential::new(&symmetric, Midpoint, 0.1, Segment::new([0.0; 2], [0.0; 2]));
+//! let potential = Potential::new(&symmetric, Midpoint, 0.1, Pair::new([0.0; 2], [0.0; 2]));
 //! let recovered = potential.at(&[0.0, 0.0].into(), &[0.1, 0.2].into());
 //! assert!((recovered.value - 0.5 * 0.5 * (0.01 + 0.02 + 0.04)).abs() < 1e-15);
 //! # Ok::<(), dalembert::samples::SampleError>(())

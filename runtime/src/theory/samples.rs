@@ -2,7 +2,7 @@
 //! there ([`Finding`]).
 //!
 //! A checker's verdict is about the points that it was given. Points of a region, spread evenly by [`region`]
-//! and [`segments`], speak for the region; those of one trajectory ([`Segment::along`]) for that trajectory
+//! and [`segments`], speak for the region; those of one trajectory ([`Pair::along`]) for that trajectory
 //! alone.
 //!
 //! Of a system at a time t0, a view, the k-th segment starts at t0 + k h: the segments of a trajectory each
@@ -38,22 +38,22 @@ pub(crate) use apart::{Sizes, around, different};
 pub(crate) use error::STOPPED;
 pub use error::SampleError;
 
-/// A segment (q0, q1), a point of Q×Q.
+/// A pair (q0, q1) of configurations, a point of Q×Q: the two ends of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Segment<S, const N: usize> {
+pub struct Pair<S, const N: usize> {
     /// Configuration at the start.
     pub q0: SVector<S, N>,
     /// Configuration at the end.
     pub q1: SVector<S, N>,
 }
 
-impl<S: Scalar, const N: usize> Segment<S, N> {
-    /// The segment (q0, q1).
+impl<S: Scalar, const N: usize> Pair<S, N> {
+    /// The pair (q0, q1).
     pub fn new(q0: impl Into<SVector<S, N>>, q1: impl Into<SVector<S, N>>) -> Self {
         Self { q0: q0.into(), q1: q1.into() }
     }
 
-    /// The segments of a discrete path q₀, q₁, q₂, …, such as the configurations of a trajectory.
+    /// The pairs of a discrete path q₀, q₁, q₂, …, such as the configurations of a trajectory.
     #[must_use]
     pub fn along(path: &[SVector<S, N>]) -> Vec<Self> {
         path.windows(2).map(|pair| Self { q0: pair[0], q1: pair[1] }).collect()
@@ -71,14 +71,14 @@ impl<S: Scalar, const N: usize> Segment<S, N> {
         is_felt(&by) && (0..N).any(is_more_than_rounding)
     }
 
-    /// This segment in `f64`.
+    /// This pair in `f64`.
     #[must_use]
-    pub fn widen(&self) -> Segment<f64, N> {
-        Segment { q0: self.q0.map(Scalar::widen), q1: self.q1.map(Scalar::widen) }
+    pub fn widen(&self) -> Pair<f64, N> {
+        Pair { q0: self.q0.map(Scalar::widen), q1: self.q1.map(Scalar::widen) }
     }
 }
 
-impl<S: fmt::Display, const N: usize> fmt::Display for Segment<S, N> {
+impl<S: fmt::Display, const N: usize> fmt::Display for Pair<S, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("q0 = ")?;
         coordinates(f, &self.q0)?;
@@ -137,7 +137,7 @@ pub fn segments<S: Scalar, const N: usize>(
     high: impl Into<SVector<S, N>>,
     reach: impl Into<SVector<S, N>>,
     count: usize,
-) -> Vec<Segment<S, N>> {
+) -> Vec<Pair<S, N>> {
     let (low, high, reach) = (low.into(), high.into(), reach.into());
     let ratios = Ratios::new(2 * N);
     (0..count)
@@ -145,7 +145,7 @@ pub fn segments<S: Scalar, const N: usize>(
             let share = |i| S::constant(ratios.share(k, i));
             let q0 = SVector::from_fn(|i, _| low[i] + (high[i] - low[i]) * share(i));
             let both_ways = |i| share(N + i) * S::constant(2.0) - S::one();
-            Segment { q0, q1: SVector::from_fn(|i, _| q0[i] + reach[i] * both_ways(i)) }
+            Pair { q0, q1: SVector::from_fn(|i, _| q0[i] + reach[i] * both_ways(i)) }
         })
         .collect()
 }
@@ -219,8 +219,8 @@ const TIMES: usize = 3;
 /// The segments, those of a view again and again until there is one for each of three times.
 pub(crate) fn at_several_times<'s, L: Lagrangian<N>, R, const N: usize>(
     by: &Discretised<'_, L, R, N>,
-    segments: &'s [Segment<L::Scalar, N>],
-) -> Cow<'s, [Segment<L::Scalar, N>]> {
+    segments: &'s [Pair<L::Scalar, N>],
+) -> Cow<'s, [Pair<L::Scalar, N>]> {
     if segments.len() < TIMES && is_timed(by.system) {
         segments.iter().cycle().take(if segments.is_empty() { 0 } else { TIMES }).copied().collect()
     } else {
@@ -237,15 +237,14 @@ pub(crate) fn require_step_size<S: Scalar>(h: S) -> Result<(), SampleError> {
 
 /// Fails where no segment says anything.
 pub(crate) fn require_informative<S: Scalar, const N: usize>(
-    segments: &[Segment<S, N>],
-    says_something: impl Fn(&Segment<S, N>) -> bool,
+    segments: &[Pair<S, N>],
+    says_something: impl Fn(&Pair<S, N>) -> bool,
 ) -> Result<(), SampleError> {
     if segments.is_empty() {
         return Err(SampleError::TooFew { given: 0, needed: 1 });
     }
     // What is not finite is an error of its own, named where it is met.
-    let finite =
-        |segment: &Segment<S, N>| segment.q0.iter().chain(&segment.q1).all(|entry| entry.is_finite());
+    let finite = |segment: &Pair<S, N>| segment.q0.iter().chain(&segment.q1).all(|entry| entry.is_finite());
     if segments.iter().any(|segment| !finite(segment) || says_something(segment)) {
         Ok(())
     } else {
@@ -256,11 +255,11 @@ pub(crate) fn require_informative<S: Scalar, const N: usize>(
 /// The value of a quantity that is furthest above its tolerance over the samples, `relative` × its scale. All
 /// have to be finite.
 pub(crate) fn worst<S: Scalar, const N: usize>(
-    segments: &[Segment<S, N>],
+    segments: &[Pair<S, N>],
     relative: f64,
     scales: &[f64],
     mut value: impl FnMut(usize) -> f64,
-) -> Result<Finding<Segment<f64, N>>, SampleError> {
+) -> Result<Finding<Pair<f64, N>>, SampleError> {
     let mut worst = None;
     for (index, (segment, &scale)) in segments.iter().zip(scales).enumerate() {
         let value = value(index);

@@ -33,7 +33,7 @@ fn main() {
     let _ = cart.by(Midpoint, 0.1).run(start);
     let _ = cart.by(Gauss::<2>, 0.1).run(start);
     let _ = cart.by(Composition::kahan_li_6(Trapezoidal), 0.1).run(start);
-    let _ = cart.by(Midpoint, 0.1).linearization(&start.q, &start.q);
+    let _ = cart.by(Midpoint, 0.1).segment(&start.q, &start.q);
 
     let start = State::from_velocity(&Clock, [0.0], [1.0]).unwrap();
     let _ = Clock.by(Midpoint, 0.1).step(&start);

@@ -1,7 +1,7 @@
 //! A system that takes an input, handed to the checkers without it.
 
 use dalembert::rayleigh::structure;
-use dalembert::samples::Segment;
+use dalembert::samples::Pair;
 use dalembert::{Discretise, Midpoint, rayleigh_system};
 
 struct Cart {
@@ -21,7 +21,7 @@ impl Cart {
 
 fn main() {
     let cart = Cart { m: 1.0 };
-    let segments = [Segment::new([0.0], [0.1])];
+    let segments = [Pair::new([0.0], [0.1])];
     let _ = cart.by(Midpoint, 0.1).noether();
     let _ = cart.by(Midpoint, 0.1).hamilton_jacobi();
     let _ = structure(&cart, Midpoint, 0.1, &segments);

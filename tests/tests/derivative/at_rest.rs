@@ -74,8 +74,10 @@ macro_rules! derivatives {
         let system = $system;
         let driven = system.driven([0.0]);
         let by = driven.by($method, 0.1);
-        by.linearized_step_with_input(&$at)
-            .map(|(step, of)| (step, of.a, of.b, by.step_by_parameters::<1>(&$at).map(|by| by.1)))
+        by.linearized(&$at).and_then(|taken| {
+            let (a, b) = (taken.by_state()?, taken.by_input()?);
+            Ok((*taken.step(), a, b, taken.by_parameters::<1>()))
+        })
     }};
 }
 

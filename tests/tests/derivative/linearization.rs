@@ -3,7 +3,7 @@
 //! depend on q.
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
-use dalembert::step::DiscreteRayleigh;
+use dalembert::step::{ClosedForm, DiscreteRayleigh, Linearizable, Segment};
 use dalembert::{Discrete, Discretise, Gauss, Midpoint, State, Trapezoidal, rayleigh_system};
 
 /// Nonlinear in everything; `curl` is the strength of a force that is not Rayleigh.
@@ -47,16 +47,16 @@ const H: f64 = 0.2;
 
 fn step_matrix<R, L>(system: &L, rule: R) -> Phase
 where
-    L: Discrete<R, 2, Scalar = f64>,
+    L: Linearizable<R, 2, Scalar = f64>,
 {
-    system.by(rule, H).linearization(&Q0, &Q1).unwrap().a.assembled()
+    system.by(rule, H).segment(&Q0, &Q1).unwrap().linearized().unwrap().by_state().unwrap().assembled()
 }
 
-fn by_differences<R, L>(system: &L) -> Phase
+fn by_differences<R, L>(system: &L, rule: R) -> Phase
 where
     L: Discrete<R, 2, Scalar = f64>,
 {
-    let state = system.legendre_minus(&Q0, &Q1, H);
+    let state = system.by(rule, H).segment(&Q0, &Q1).unwrap().legendre_minus().unwrap();
     let step = |component: usize, shift: f64| {
         let mut moved = state;
         if component < 2 {
@@ -73,9 +73,9 @@ where
 
 fn check_against_differences<R: Copy, L>(system: &L, rule: R)
 where
-    L: Discrete<R, 2, Scalar = f64>,
+    L: Linearizable<R, 2, Scalar = f64>,
 {
-    let (exact, differences) = (step_matrix(system, rule), by_differences(system));
+    let (exact, differences) = (step_matrix(system, rule), by_differences(system, rule));
     let miss = (exact - differences).amax();
     // Truncation (1e-5)² times third derivatives, rounding 1e-16/1e-5.
     assert!(miss < 3e-9 * exact.amax(), "{miss}\n{exact}\n{differences}");
@@ -97,11 +97,12 @@ fn it_is_the_derivative_of_the_step() {
 
 fn check_determinant<R: Copy, L>(system: &L, rule: R)
 where
-    L: DiscreteRayleigh<R, 2, Scalar = f64>,
+    L: DiscreteRayleigh<R, 2, Scalar = f64> + Linearizable<R, 2>,
 {
     let determinant = step_matrix(system, rule).determinant();
-    let plus = system.modified_plus_derivatives(&Q0, &Q1, H).d12.determinant();
-    let minus = system.modified_minus_derivatives(&Q0, &Q1, H).d12.determinant();
+    let segment = Segment::between(&Q0, &Q1, H);
+    let plus = system.modified_plus_derivatives(&segment).d12.determinant();
+    let minus = system.modified_minus_derivatives(&segment).d12.determinant();
     assert!((determinant / (minus / plus) - 1.0).abs() < 1e-13);
     // Positive control: friction moves it away from 1, and the ratio upside down is wrong.
     assert!((determinant - 1.0).abs() > 0.05 && (determinant - plus / minus).abs() > 0.05);
@@ -120,10 +121,12 @@ fn the_force_alone_bends_the_symplectic_form() {
     for (system, bends) in
         [(Tangle { friction: 0.6, curl: 0.8 }, true), (Tangle { friction: 0.0, curl: 0.0 }, false)]
     {
-        let linearization = system.by(Midpoint, H).linearization(&Q0, &Q1).unwrap();
-        let a: Phase = linearization.a.assembled();
+        let step = system.by(Midpoint, H).segment(&Q0, &Q1).unwrap().linearized().unwrap();
+        let of_step = step.by_state().unwrap();
+        let a: Phase = of_step.assembled();
         let defect = a.transpose() * OMEGA * a - OMEGA;
-        let f = Discrete::<Midpoint, 2>::discrete_force_derivatives(&system, &Q0, &Q1, H);
+        let f =
+            ClosedForm::<Midpoint, 2>::discrete_force_derivatives(&system, &Segment::between(&Q0, &Q1, H));
         let force = Phase::from_fn(|i, j| {
             let half = if i < 2 { &f.minus } else { &f.plus };
             let block = if j < 2 { &half.d1 } else { &half.d2 };
@@ -131,8 +134,8 @@ fn the_force_alone_bends_the_symplectic_form() {
         });
         let tangent = Phase::from_fn(|i, j| match (i < 2, j < 2) {
             (true, _) => f64::from(u8::from(i == j)),
-            (false, true) => linearization.a.q_by_q[(i - 2, j)],
-            (false, false) => linearization.a.q_by_p[(i - 2, j - 2)],
+            (false, true) => of_step.q_by_q[(i - 2, j)],
+            (false, false) => of_step.q_by_p[(i - 2, j - 2)],
         });
         let expected = tangent.transpose() * (force - force.transpose()) * tangent;
         assert!((defect - expected).amax() < 1e-13 * (1.0 + a.amax().powi(2)), "{defect}{expected}");
@@ -146,7 +149,9 @@ fn a_singular_transform_is_an_error() {
     // Midpoint: ∂p0/∂q1 = m/h + kh/4 + r/2, which vanishes for the repelling k = −4m/h².
     use dalembert_tests::damped_oscillator::Oscillator;
     let at = |k: f64| {
-        Oscillator { m: 1.0, k, r: 0.0 }.by(Midpoint, 0.5).linearization(&vector![0.1], &vector![0.2])
+        let oscillator = Oscillator { m: 1.0, k, r: 0.0 };
+        let segment = oscillator.by(Midpoint, 0.5).segment(&vector![0.1], &vector![0.2]).unwrap();
+        segment.linearized().and_then(|step| step.by_state())
     };
     assert!(
         matches!(at(-16.0), Err(dalembert::StepError::SingularNewtonMatrix { column: 0, .. })),

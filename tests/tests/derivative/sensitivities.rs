@@ -50,9 +50,8 @@ mod num_dual {
 use dalembert::derivative::{PhaseMatrix, StepHessian};
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::step::Flow;
-use dalembert::step::{
-    DiscreteDriven, DiscreteParameters, DiscreteRayleigh, DiscreteSecondOrder, StartByInput,
-};
+use dalembert::step::{DiscreteDriven, DiscreteParameters, DiscreteRayleigh, DiscreteSecondOrder, Segment};
+use dalembert::rules::{DisplacementRule, Node, Quadrature};
 use dalembert::system::{Parameters, SecondOrder};
 use dalembert::{
     Discrete, Discretise, Gauss, Lagrangian, Midpoint, Rayleigh, State, Trapezoidal, rayleigh_system,
@@ -82,11 +81,13 @@ where
 }
 
 /// The point whose step ends at Q1.
-fn point<R>(cart: &CartPole) -> Point
+fn point<R>(cart: &CartPole, rule: R) -> Point
 where
     for<'a> expanded::DrivenCartPole<'a>: Discrete<R, 2, Scalar = f64>,
 {
-    let State { q, p } = cart.driven(U, T).legendre_minus(&Q0, &Q1, H);
+    let driven = cart.driven(U, T);
+    let State { q, p } =
+        Discretise::by(&driven, rule, H).segment(&Q0, &Q1).unwrap().legendre_minus().unwrap();
     vector![q[0], q[1], p[0], p[1], U[0], U[1]]
 }
 
@@ -101,8 +102,9 @@ fn jacobian<R: Copy>(
 where
     for<'a> expanded::DrivenCartPole<'a>: DiscreteDriven<R, 2, 2, Scalar = f64>,
 {
-    let step = cart.driven(u, T).by(rule, H).linearization_with_input(q0, q1).unwrap();
-    let (a, b) = (step.a.assembled::<4>(), step.b.assembled::<4>());
+    let driven = cart.driven(u, T);
+    let step = driven.by(rule, H).segment(q0, q1).unwrap().linearized().unwrap();
+    let (a, b) = (step.by_state().unwrap().assembled::<4>(), step.by_input::<2>().unwrap().assembled::<4>());
     SMatrix::from_fn(|i, j| if j < 4 { a[(i, j)] } else { b[(i, j - 4)] })
 }
 
@@ -111,7 +113,7 @@ where
     for<'a> expanded::DrivenCartPole<'a>: DiscreteDriven<R, 2, 2, Scalar = f64>,
 {
     let exact = jacobian(&CART, rule, U, &Q0, &Q1);
-    let z = point::<R>(&CART);
+    let z = point(&CART, rule);
     let width = 1e-5;
     for j in 0..6 {
         let mut shift = Point::zeros();
@@ -132,6 +134,19 @@ fn a_and_b_are_the_derivatives_of_the_step() {
     check_first(Gauss::<1>);
     check_first(Gauss::<2>);
     check_first(Gauss::<4>);
+    check_first(Quadrature(Simpson));
+}
+
+/// A rule of one's own, whose systems have all that the attribute's rules have.
+#[derive(Clone, Copy)]
+struct Simpson;
+
+impl DisplacementRule for Simpson {
+    const NODES: &'static [Node] = &[
+        Node { position: 0.0, weight: 1.0 / 6.0 },
+        Node { position: 0.5, weight: 2.0 / 3.0 },
+        Node { position: 1.0, weight: 1.0 / 6.0 },
+    ];
 }
 
 fn check_second<R: Copy>(rule: R)
@@ -146,9 +161,17 @@ where
         jacobian(&CART, rule, u, &q0, &q1).transpose()
             * vector![covector.q[0], covector.q[1], covector.p[0], covector.p[1]]
     };
-    let found = CART.driven(U, T).by(rule, H).step_hessian(&Q0, &Q1, &covector).unwrap();
+    let found = CART
+        .driven(U, T)
+        .by(rule, H)
+        .segment(&Q0, &Q1)
+        .unwrap()
+        .linearized()
+        .unwrap()
+        .hessian(&covector)
+        .unwrap();
     let found = assembled(&found);
-    let z = point::<R>(&CART);
+    let z = point(&CART, rule);
     let width = 1e-5;
     for j in 0..6 {
         let mut shift = Point::zeros();
@@ -161,35 +184,6 @@ where
     for (row, column) in [(0, 0), (0, 2), (2, 2), (0, 4), (2, 4), (4, 4)] {
         assert!(found.fixed_view::<2, 2>(row, column).amax() > 1e-5, "{row} {column} {found}");
     }
-}
-
-fn check_start_by_input<R>(_: R)
-where
-    for<'a> expanded::DrivenCartPole<'a>: Discrete<R, 2, Scalar = f64> + StartByInput<R, 2, 2>,
-{
-    let start = |u: [f64; 2]| Discrete::<R, 2>::legendre_minus(&CART.driven(u, T), &Q0, &Q1, H).p;
-    let found = StartByInput::<R, 2, 2>::p0_by_input(&CART.driven(U, T), &Q0, &((Q1 - Q0) / H), H);
-    let width = 1e-5;
-    for j in 0..2 {
-        let shifted = |by: f64| {
-            let mut u = U;
-            u[j] += by;
-            start(u)
-        };
-        let difference = (shifted(width) - shifted(-width)) / (2.0 * width);
-        assert!((found.column(j) - difference).amax() < 1e-9 * found.amax(), "{j}: {found}{difference}");
-    }
-    // Positive control: both inputs act.
-    assert!(found.column(0).amax() > 1e-2 && found.column(1).amax() > 1e-3, "{found}");
-}
-
-#[test]
-fn p0_follows_the_input_as_differences_at_fixed_ends_say() {
-    check_start_by_input(Midpoint);
-    check_start_by_input(Trapezoidal);
-    check_start_by_input(Gauss::<1>);
-    check_start_by_input(Gauss::<2>);
-    check_start_by_input(Gauss::<4>);
 }
 
 fn assembled(h: &StepHessian<f64, 2, 2>) -> SMatrix<f64, 6, 6> {
@@ -210,6 +204,7 @@ fn second_derivatives_are_those_of_a_and_b() {
     check_second(Gauss::<1>);
     check_second(Gauss::<2>);
     check_second(Gauss::<4>);
+    check_second(Quadrature(Simpson));
 }
 
 fn check_engines<R: Copy>(rule: R)
@@ -223,19 +218,27 @@ where
     let oracle = num_dual::CartPole { m, l, g, c };
     let covector = State { q: vector![0.7, -1.1], p: vector![0.4, 0.9] };
     let (a, b) = (CART.driven(U, T), oracle.driven(U, T));
-    let first = [
-        a.by(rule, H).linearization_with_input(&Q0, &Q1).unwrap(),
-        b.by(rule, H).linearization_with_input(&Q0, &Q1).unwrap(),
-    ];
-    assert!((first[0].a.assembled::<4>() - first[1].a.assembled::<4>()).amax() < 1e-13);
-    assert!((first[0].b.assembled::<4>() - first[1].b.assembled::<4>()).amax() < 1e-14);
+    let first = (
+        a.by(rule, H).segment(&Q0, &Q1).unwrap().linearized().unwrap(),
+        b.by(rule, H).segment(&Q0, &Q1).unwrap().linearized().unwrap(),
+    );
+    let by_state =
+        first.0.by_state().unwrap().assembled::<4>() - first.1.by_state().unwrap().assembled::<4>();
+    let by_input = first.0.by_input::<2>().unwrap() + first.1.by_input::<2>().unwrap() * -1.0;
+    assert!(by_state.amax() < 1e-13 && by_input.assembled::<4>().amax() < 1e-14);
     let second = [
-        assembled(&a.by(rule, H).step_hessian(&Q0, &Q1, &covector).unwrap()),
-        assembled(&b.by(rule, H).step_hessian(&Q0, &Q1, &covector).unwrap()),
+        assembled(
+            &a.by(rule, H).segment(&Q0, &Q1).unwrap().linearized().unwrap().hessian(&covector).unwrap(),
+        ),
+        assembled(
+            &b.by(rule, H).segment(&Q0, &Q1).unwrap().linearized().unwrap().hessian(&covector).unwrap(),
+        ),
     ];
     assert!((second[0] - second[1]).amax() < 1e-13 * second[0].amax());
     let later = CART.driven(U, T + 1e-6);
-    let later = assembled(&later.by(rule, H).step_hessian(&Q0, &Q1, &covector).unwrap());
+    let later = assembled(
+        &later.by(rule, H).segment(&Q0, &Q1).unwrap().linearized().unwrap().hessian(&covector).unwrap(),
+    );
     assert!((second[1] - later).amax() > 1e-12 * later.amax(), "positive control");
 }
 
@@ -272,8 +275,17 @@ fn check_parameters<R: Copy>(rule: R)
 where
     for<'a> expanded::DrivenCartPole<'a>: DiscreteParameters<R, 2, 4, Scalar = f64>,
 {
-    let z = point::<R>(&CART);
-    let exact = CART.driven(U, T).by(rule, H).state_by_parameters(&Q0, &Q1).unwrap().assembled::<4>();
+    let z = point(&CART, rule);
+    let exact = CART
+        .driven(U, T)
+        .by(rule, H)
+        .segment(&Q0, &Q1)
+        .unwrap()
+        .linearized()
+        .unwrap()
+        .by_parameters()
+        .unwrap()
+        .assembled::<4>();
     let moved = |index: usize, shift: f64| {
         let mut cart = CART;
         match index {
@@ -299,6 +311,7 @@ fn parameters_move_the_step_as_differences_say() {
     check_parameters(Gauss::<1>);
     check_parameters(Gauss::<2>);
     check_parameters(Gauss::<4>);
+    check_parameters(Quadrature(Simpson));
     assert_eq!(<expanded::DrivenCartPole as Parameters<2, 4>>::PARAMETERS, ["m[1]", "l", "c[0]", "c[1]"]);
 }
 
@@ -365,26 +378,27 @@ fn the_linear_oscillator_in_closed_form() {
     let state = State { q: vector![0.6], p: vector![-0.9] };
     let (q, p) = (state.q[0], state.p[0]);
     let q1 = driven.by(Midpoint, h).step(&state).unwrap().state.q;
-    let step = driven.by(Midpoint, h).linearization_with_input(&state.q, &q1).unwrap();
+    let step = driven.by(Midpoint, h).segment(&state.q, &q1).unwrap().linearized().unwrap();
+    let found = (step.by_state().unwrap().assembled::<2>(), step.by_input::<1>().unwrap().assembled::<2>());
     // mathematics: q1 = (4hp + (4m − kh² + 2hr) q + 2h² u)/D and p1 = p − h(k q̄ + r v̄ − u).
     let d = 4.0 * m + h * h * k + 2.0 * h * r;
     let a = matrix![4.0 * m - k * h * h + 2.0 * h * r, 4.0 * h; -4.0 * h * k * m, 4.0 * m - h * h * k - 2.0 * h * r]
         / d;
     let b = vector![2.0 * h * h / d, h - h * (k * h / 2.0 + r) * 2.0 * h / d];
-    assert!((step.a.assembled::<2>() - a).amax() < 4e-16, "{}", step.a.assembled::<2>() - a);
-    assert!((step.b.assembled::<2>() - b).amax() < 4e-16);
+    assert!((found.0 - a).amax() < 4e-16, "{}", found.0 - a);
+    assert!((found.1 - b).amax() < 4e-16);
 
     // By m, k, r: v̄ = (p − (h/2)(k q − u))/(D/4), q1 = q + h v̄, p1 = p − h(k (q + h v̄/2) + r v̄ − u).
     let v = (p - h / 2.0 * (k * q - u)) * 4.0 / d;
     let v_by = vector![-4.0 * v / d, -(h / 2.0 * q + h * h / 4.0 * v) * 4.0 / d, -h / 2.0 * v * 4.0 / d];
-    let by = driven.by(Midpoint, h).state_by_parameters(&state.q, &q1).unwrap();
+    let by = step.by_parameters().unwrap();
     for j in 0..3 {
         let direct = [0.0, -h * (q + h * v / 2.0), -h * v][j];
         let p_by = direct - h * (k * h / 2.0 + r) * v_by[j];
         assert!((by.q[j] - h * v_by[j]).abs() < 1e-15 && (by.p[j] - p_by).abs() < 1e-15, "{j}");
     }
     // A linear step has no second derivatives.
-    let second = driven.by(Midpoint, h).step_hessian(&state.q, &q1, &state).unwrap();
+    let second = step.hessian(&state).unwrap();
     assert_eq!((second.qq[0], second.qp[0], second.pp[0], second.uu[0]), (0.0, 0.0, 0.0, 0.0));
 }
 
@@ -394,31 +408,17 @@ fn an_input_alone_leaves_the_step_symplectic() {
     let omega = matrix![0.0, 1.0; -1.0, 0.0];
     for r in [0.0, 0.5] {
         let system = Oscillator { m: 1.3, k: 2.1, r };
-        let step = system
-            .driven([0.7])
-            .by(Midpoint, 0.2)
-            .linearization_with_input(&vector![0.1], &vector![0.2])
-            .unwrap();
-        let a = step.a.assembled::<2>();
+        let pushed = system.driven([0.7]);
+        let segment = pushed.by(Midpoint, 0.2).segment(&vector![0.1], &vector![0.2]).unwrap();
+        let a = segment.linearized().unwrap().by_state().unwrap().assembled::<2>();
         let defect = (a.transpose() * omega * a - omega).amax();
         assert_eq!(defect > 1e-2, r > 0.0, "{defect}");
         assert!(r > 0.0 || defect < 1e-15);
         // det A = det(D1D2 L_d⁻)/det(D1D2 L_d⁺), the input's force having no derivative by q.
         let driven = system.driven([0.7]);
-        let plus = DiscreteRayleigh::<Midpoint, 1>::modified_plus_derivatives(
-            &driven,
-            &vector![0.1],
-            &vector![0.2],
-            0.2,
-        )
-        .d12[0];
-        let minus = DiscreteRayleigh::<Midpoint, 1>::modified_minus_derivatives(
-            &driven,
-            &vector![0.1],
-            &vector![0.2],
-            0.2,
-        )
-        .d12[0];
+        let segment = Segment::between(&vector![0.1], &vector![0.2], 0.2);
+        let plus = DiscreteRayleigh::<Midpoint, 1>::modified_plus_derivatives(&driven, &segment).d12[0];
+        let minus = DiscreteRayleigh::<Midpoint, 1>::modified_minus_derivatives(&driven, &segment).d12[0];
         assert!((a.determinant() - minus / plus).abs() < 1e-15);
     }
 }
@@ -443,17 +443,39 @@ fn systems_without_inputs_have_second_derivatives_too() {
     let slope = |system: &Plain, q: f64, p: f64| {
         let moved = State { q: vector![q], p: vector![p] };
         let q1 = system.by(Trapezoidal, h).step(&moved).unwrap().state.q;
-        let a = system.by(Trapezoidal, h).linearization(&moved.q, &q1).unwrap().a;
+        let a = system
+            .by(Trapezoidal, h)
+            .segment(&moved.q, &q1)
+            .unwrap()
+            .linearized()
+            .unwrap()
+            .by_state()
+            .unwrap();
         a.q_by_p[0] * covector.q[0] + a.p_by_p[0] * covector.p[0]
     };
-    let found = system.by(Trapezoidal, h).step_hessian(&vector![0.5], &vector![0.45], &covector).unwrap();
+    let found = system
+        .by(Trapezoidal, h)
+        .segment(&vector![0.5], &vector![0.45])
+        .unwrap()
+        .linearized()
+        .unwrap()
+        .hessian(&covector)
+        .unwrap();
     let (q, p, width) = (state.q[0], state.p[0], 1e-5);
     let by_q = (slope(&system, q + width, p) - slope(&system, q - width, p)) / (2.0 * width);
     let by_p = (slope(&system, q, p + width) - slope(&system, q, p - width)) / (2.0 * width);
     assert!((found.qp[0] - by_q).abs() < 1e-9, "{} {by_q}", found.qp[0]);
     assert!((found.pp[0] - by_p).abs() < 1e-9, "{} {by_p}", found.pp[0]);
     let end = |k: f64| Plain { k }.by(Trapezoidal, h).step(&state).unwrap().state.p[0];
-    let by_k = system.by(Trapezoidal, h).state_by_parameters(&vector![0.5], &vector![0.45]).unwrap().p[0];
+    let by_k = system
+        .by(Trapezoidal, h)
+        .segment(&vector![0.5], &vector![0.45])
+        .unwrap()
+        .linearized()
+        .unwrap()
+        .by_parameters()
+        .unwrap()
+        .p[0];
     let difference = (end(2.0 + width) - end(2.0 - width)) / (2.0 * width);
     assert!((by_k - difference).abs() < 1e-9 && by_k.abs() > 1e-3);
 }
@@ -521,12 +543,12 @@ fn single_precision_has_them_too() {
     let (m, k, r, h, u) = (1.3, 2.1, 0.4, 0.2, 0.7);
     let (single, double) = (Single { m, k, r }, Oscillator { m: 1.3, k: 2.1, r: 0.4 });
     let (single, double) = (single.driven([u]), double.driven([0.7]));
-    let a = single.by(Midpoint, h).linearization_with_input(&vector![0.6], &vector![0.5]).unwrap();
-    let b = double.by(Midpoint, 0.2).linearization_with_input(&vector![0.6], &vector![0.5]).unwrap();
-    let of_double = (b.a.assembled::<2>(), b.b.assembled::<2>());
-    assert!((a.a.assembled::<2>().cast::<f64>() - of_double.0).amax() < 1e-6);
-    assert!((a.b.assembled::<2>().cast::<f64>() - of_double.1).amax() < 1e-7);
-    let a = single.by(Midpoint, h).state_by_parameters(&vector![0.6], &vector![0.5]).unwrap();
-    let b = double.by(Midpoint, 0.2).state_by_parameters(&vector![0.6], &vector![0.5]).unwrap();
+    let a = single.by(Midpoint, h).segment(&vector![0.6], &vector![0.5]).unwrap().linearized().unwrap();
+    let b = double.by(Midpoint, 0.2).segment(&vector![0.6], &vector![0.5]).unwrap().linearized().unwrap();
+    let by_state = b.by_state().unwrap().assembled::<2>();
+    assert!((a.by_state().unwrap().assembled::<2>().cast::<f64>() - by_state).amax() < 1e-6);
+    let by_input = b.by_input::<1>().unwrap().assembled::<2>();
+    assert!((a.by_input::<1>().unwrap().assembled::<2>().cast::<f64>() - by_input).amax() < 1e-7);
+    let (a, b) = (a.by_parameters().unwrap(), b.by_parameters().unwrap());
     assert!((a.assembled::<2>().cast::<f64>() - b.assembled::<2>()).amax() < 1e-7);
 }

@@ -2,9 +2,9 @@
 //! agree with central differences. N = 1, 2, 3, and an N given by a constant.
 
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::step::{DiscreteRayleigh, NewtonMatrix};
+use dalembert::step::{ClosedForm, DiscreteRayleigh, NewtonMatrix, Segment};
 use dalembert::system::{Derivatives, Direction};
-use dalembert::{Discrete, Discretise, Force, Midpoint, Rayleigh, Trapezoidal};
+use dalembert::{Discretise, Force, Midpoint, Rayleigh, Trapezoidal};
 use dalembert_tests::by_hand::{ByHand, Continuous, Discretised, Part, Rule, TwoPoints, derivatives};
 use dalembert_tests::systems::{Bead, Chain, Charge, DoublePendulum, Follower, FreePendulum, Pendulum};
 
@@ -87,37 +87,41 @@ fn force_by_hand<S: ByHand<N>, const N: usize>(
 /// What every discretised system has.
 fn check_discrete<S, R, const N: usize>(system: &S, rule: Rule, q0: [f64; N], q1: [f64; N])
 where
-    S: ByHand<N> + Discrete<R, N, Scalar = f64>,
+    S: ByHand<N> + ClosedForm<R, N, Scalar = f64>,
 {
     let (a, b) = (&SVector::from(q0), &SVector::from(q1));
     let l = derivatives(&Discretised { system, rule, h: H, part: Part::Lagrangian }, q0, q1);
-    assert_same("L_d", &system.discrete_lagrangian_derivatives(a, b, H), &l);
-    let value = system.discrete_lagrangian(a, b, H);
+    assert_same("L_d", &system.discrete_lagrangian_derivatives(&Segment::between(a, b, H)), &l);
+    let value = system.discrete_lagrangian(&Segment::between(a, b, H));
     assert!((value - l.value).abs() <= ROUNDING * l.value.abs(), "L_d alone: {value}, {}", l.value);
 
     let force = force_by_hand(system, rule, q0, q1);
-    let generated = system.discrete_force_derivatives(a, b, H);
+    let generated = system.discrete_force_derivatives(&Segment::between(a, b, H));
     assert_same_matrix("f_d⁻", &generated.minus.value, &force.values[0]);
     assert_same_matrix("D1 f_d⁻", &generated.minus.d1, &force.minus[0]);
     assert_same_matrix("D2 f_d⁻", &generated.minus.d2, &force.minus[1]);
     assert_same_matrix("f_d⁺", &generated.plus.value, &force.values[1]);
     assert_same_matrix("D1 f_d⁺", &generated.plus.d1, &force.plus[0]);
     assert_same_matrix("D2 f_d⁺", &generated.plus.d2, &force.plus[1]);
-    assert_same_matrix("f_d⁻ alone", &system.discrete_force(a, b, H).minus, &force.values[0]);
-    assert_same_matrix("f_d⁺ alone", &system.discrete_force(a, b, H).plus, &force.values[1]);
-    assert_same_matrix("force_minus", &system.force_minus(a, b, H), &force.values[0]);
-    assert_same_matrix("force_plus", &system.force_plus(a, b, H), &force.values[1]);
+    assert_same_matrix(
+        "f_d⁻ alone",
+        &system.discrete_force(&Segment::between(a, b, H)).minus,
+        &force.values[0],
+    );
+    assert_same_matrix(
+        "f_d⁺ alone",
+        &system.discrete_force(&Segment::between(a, b, H)).plus,
+        &force.values[1],
+    );
 
     // Momenta and Newton matrix: p0 = −D1 L_d − f_d⁻, p1 = D2 L_d + f_d⁺, ∂p0/∂v̄ = h ∂p0/∂q1.
     let p0 = -l.d1 - force.values[0];
     let p1 = l.d2 + force.values[1];
     let v = (b - a) / H;
-    let momenta = system.momenta(a, &v, H);
+    let momenta = system.momenta(&Segment { q0: *a, v, h: H });
     assert_same_matrix("p0", &momenta.p0, &p0);
     assert_same_matrix("p1", &momenta.p1, &p1);
-    assert_same_matrix("𝔽⁻", &system.legendre_minus(a, b, H).p, &p0);
-    assert_same_matrix("𝔽⁺", &system.legendre_plus(a, b, H).p, &p1);
-    let kernel = system.step_kernel(a, &v, H);
+    let kernel = system.step_kernel(&Segment { q0: *a, v, h: H });
     assert_same_matrix("p0 of the kernel", &kernel.p0, &p0);
     assert_same_matrix("Newton matrix", &kernel.matrix.dense(), &(-(l.d12 + force.minus[1]) * H));
 
@@ -148,13 +152,13 @@ where
     let (a, b) = (&SVector::from(q0), &SVector::from(q1));
     let of = |part| derivatives(&Discretised { system, rule, h: H, part }, q0, q1);
     let (r, plus, minus) = (of(Part::Rayleigh), of(Part::Plus), of(Part::Minus));
-    assert_same("R_d", &system.discrete_rayleigh_derivatives(a, b, H), &r);
-    assert_same("L_d⁺", &system.modified_plus_derivatives(a, b, H), &plus);
-    assert_same("L_d⁻", &system.modified_minus_derivatives(a, b, H), &minus);
+    assert_same("R_d", &system.discrete_rayleigh_derivatives(&Segment::between(a, b, H)), &r);
+    assert_same("L_d⁺", &system.modified_plus_derivatives(&Segment::between(a, b, H)), &plus);
+    assert_same("L_d⁻", &system.modified_minus_derivatives(&Segment::between(a, b, H)), &minus);
     for (value, by_hand) in [
-        (system.discrete_rayleigh(a, b, H), r.value),
-        (system.modified_plus(a, b, H), plus.value),
-        (system.modified_minus(a, b, H), minus.value),
+        (system.discrete_rayleigh(&Segment::between(a, b, H)), r.value),
+        (system.modified_plus(&Segment::between(a, b, H)), plus.value),
+        (system.modified_minus(&Segment::between(a, b, H)), minus.value),
     ] {
         assert!((value - by_hand).abs() <= ROUNDING * by_hand.abs().max(r.value.abs()), "{value}, {by_hand}");
     }

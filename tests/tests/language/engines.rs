@@ -151,7 +151,7 @@ mod num_dual {
 }
 
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::step::{DiscreteRayleigh, NewtonMatrix};
+use dalembert::step::{DiscreteRayleigh, NewtonMatrix, Segment};
 use dalembert::system::{Derivatives, Direction, Scalar};
 use dalembert::{Discretise, Force, Lagrangian, Midpoint, State, Trapezoidal};
 
@@ -230,18 +230,21 @@ where
             difference.vectors(&va.plus, &vb.plus);
             difference.vectors(&va.mixed, &vb.mixed);
         }
-        let (ka, kb) = (a.step_kernel(&q, &v, h), b.step_kernel(&q, &v, h));
+        let (ka, kb) = (a.step_kernel(&Segment { q0: q, v, h }), b.step_kernel(&Segment { q0: q, v, h }));
         difference.vectors(&ka.p0, &kb.p0);
         difference.vectors(&ka.matrix.dense(), &kb.matrix.dense());
-        let (ma, mb) = (a.momenta(&q, &v, h), b.momenta(&q, &v, h));
+        let (ma, mb) = (a.momenta(&Segment { q0: q, v, h }), b.momenta(&Segment { q0: q, v, h }));
         difference.vectors(&ma.p0, &mb.p0);
         difference.vectors(&ma.p1, &mb.p1);
         let q1 = q + v * h;
         difference.derivatives(
-            &a.discrete_lagrangian_derivatives(&q, &q1, h),
-            &b.discrete_lagrangian_derivatives(&q, &q1, h),
+            &a.discrete_lagrangian_derivatives(&Segment::between(&q, &q1, h)),
+            &b.discrete_lagrangian_derivatives(&Segment::between(&q, &q1, h)),
         );
-        let (fa, fb) = (a.discrete_force(&q, &q1, h), b.discrete_force(&q, &q1, h));
+        let (fa, fb) = (
+            a.discrete_force(&Segment::between(&q, &q1, h)),
+            b.discrete_force(&Segment::between(&q, &q1, h)),
+        );
         difference.vectors(&fa.minus, &fb.minus);
         difference.vectors(&fa.plus, &fb.plus);
     }

@@ -2,7 +2,8 @@
 //! free function.
 
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::{Discrete, Discretise, Force, Lagrangian, Midpoint, Rayleigh, Trapezoidal, rayleigh_system};
+use dalembert::step::{Fused, Segment};
+use dalembert::{Discretise, Force, Lagrangian, Midpoint, Rayleigh, Trapezoidal, rayleigh_system};
 
 /// Closed forms below are evaluated in another order: a few units in the last place.
 const ROUNDING: f64 = 1e-14;
@@ -121,10 +122,10 @@ fn r_of_v_alone_does_not_depend_on_q() {
     assert_close(&vector![0.6, -0.3], &r.d2);
     assert_eq!(r.d12.amax(), 0.0);
     assert_eq!(system.rayleigh([2.0, -1.0]), 0.75);
-    let discrete =
-        Discrete::<Midpoint, 2>::force_minus(&system, &vector![0.0, 0.0], &vector![0.2, -0.1], 0.1);
+    let by = system.by(Midpoint, 0.1);
+    let discrete = by.discrete_force(&vector![0.0, 0.0], &vector![0.2, -0.1]).minus;
     assert_close(&(vector![-0.6, 0.3] * 0.05), &discrete);
-    let r_d = system.by(Midpoint, 0.1).discrete_rayleigh(&vector![0.0, 0.0], &vector![0.2, -0.1]);
+    let r_d = by.discrete_rayleigh(&vector![0.0, 0.0], &vector![0.2, -0.1]);
     assert_close(&vector![0.005 * 0.75], &vector![r_d]);
 }
 
@@ -265,8 +266,10 @@ fn f32_systems_stay_in_f32() {
             "{expected} {actual}"
         );
     }
-    let step =
-        Discrete::<Midpoint, 1>::step_kernel(&SingleOscillator { k: 4.0 }, &vector![1.0], &vector![2.0], 0.5);
+    let step = Fused::<Midpoint, 1>::step_kernel(
+        &SingleOscillator { k: 4.0 },
+        &Segment { q0: vector![1.0], v: vector![2.0], h: 0.5 },
+    );
     // p0 = v̄ + (h/2)(k q̄ + r v̄), ∂p0/∂v̄ = 1 + (h/2)(k h/2 + r): q̄ = 1.5, r = ½.
     assert_eq!((step.p0[0], step.matrix[0]), (2.0 + 0.25 * (6.0 + 1.0), 1.0 + 0.25 * (1.0 + 0.5)));
 }

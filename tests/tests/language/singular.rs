@@ -6,9 +6,9 @@
 //! side; and zeros for whatever does not depend on x or y, however singular the function is.
 
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::step::NewtonMatrix;
+use dalembert::step::{Fused, NewtonMatrix, Segment};
 use dalembert::system::Direction;
-use dalembert::{Discrete, Discretise, Force, Lagrangian, Midpoint};
+use dalembert::{Discretise, Force, Lagrangian, Midpoint};
 
 const INF: f64 = f64::INFINITY;
 const NAN: f64 = f64::NAN;
@@ -96,11 +96,12 @@ where
 /// The step's functions, of which both engines must say the same; at v = 0, so that q̄ is the point itself.
 fn agree<A, B>(a: &A, b: &B, point: [f64; 2]) -> Result<(), String>
 where
-    A: Discrete<Midpoint, 2, Scalar = f64>,
-    B: Discrete<Midpoint, 2, Scalar = f64>,
+    A: Fused<Midpoint, 2, Scalar = f64>,
+    B: Fused<Midpoint, 2, Scalar = f64>,
 {
     let (q, v) = (SVector::from(point), SVector::zeros());
-    let (ka, kb) = (a.step_kernel(&q, &v, 0.25), b.step_kernel(&q, &v, 0.25));
+    let (ka, kb) =
+        (a.step_kernel(&Segment { q0: q, v, h: 0.25 }), b.step_kernel(&Segment { q0: q, v, h: 0.25 }));
     let (ka, kb) = ((ka.p0, ka.matrix.dense()), (kb.p0, kb.matrix.dense()));
     // Sums of infinite terms are infinite or NaN by their order, which is the engine's own.
     let lost = |a: f64, b: f64| !a.is_finite() && !b.is_finite();
@@ -108,7 +109,7 @@ where
     if !alike(ka.0.as_slice(), kb.0.as_slice()) || !alike(ka.1.as_slice(), kb.1.as_slice()) {
         return Err(format!("step kernel at {point:?}: {ka:?}, num-dual {kb:?}"));
     }
-    let (ma, mb) = (a.momenta(&q, &v, 0.25), b.momenta(&q, &v, 0.25));
+    let (ma, mb) = (a.momenta(&Segment { q0: q, v, h: 0.25 }), b.momenta(&Segment { q0: q, v, h: 0.25 }));
     if !all_same(&ma.p0, &mb.p0) || !all_same(&ma.p1, &mb.p1) {
         return Err(format!("momenta at {point:?}: {ma:?}, num-dual {mb:?}"));
     }

@@ -10,9 +10,9 @@ mod generator;
 use std::path::Path;
 
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::step::NewtonMatrix;
+use dalembert::step::{Fused, NewtonMatrix, Segment};
 use dalembert::system::Derivatives;
-use dalembert::{Discrete, Force, Lagrangian, Midpoint, Rayleigh};
+use dalembert::{Force, Lagrangian, Midpoint, Rayleigh};
 
 use generator::COEFFICIENTS;
 
@@ -67,12 +67,12 @@ fn push_derivatives<const N: usize>(to: &mut Results, derivatives: Derivatives<f
 
 fn of_lagrangian<S, const N: usize>(system: &S, q: &SVector<f64, N>, v: &SVector<f64, N>) -> Results
 where
-    S: Lagrangian<N, Scalar = f64> + Discrete<Midpoint, N>,
+    S: Lagrangian<N, Scalar = f64> + Fused<Midpoint, N>,
 {
     let mut results = Results::default();
     results[0].push(system.lagrangian(q, v));
     push_derivatives(&mut results, system.lagrangian_derivatives(q, v));
-    let kernel = system.step_kernel(q, v, 0.1);
+    let kernel = system.step_kernel(&Segment { q0: *q, v: *v, h: 0.1 });
     push(&mut results[3], kernel.p0);
     push(&mut results[3], kernel.matrix.dense());
     results

@@ -4,9 +4,9 @@
 //! those of another system. The momenta of their steps are those of L_d and f_d.
 
 use dalembert::run::VelocityHistory;
-use dalembert::step::{DiscreteForce, Flow, Momenta, StepKernel};
+use dalembert::step::{ClosedForm, DiscreteForce, Flow, Fused, Momenta, Segment, StepKernel};
 use dalembert::system::{Derivatives, Structure, verification};
-use dalembert::{Discrete, Lagrangian, Midpoint, State, StepError};
+use dalembert::{Lagrangian, Midpoint, State, StepError};
 use nalgebra::SVector;
 
 use super::{Spread, expanded, generator, num_dual};
@@ -118,64 +118,36 @@ impl<S: Lagrangian<N>, const N: usize> Lagrangian<N> for Mixed<S> {
 }
 
 /// With the step's equation and momenta of the other.
-impl<S: Discrete<Midpoint, N>, const N: usize> Discrete<Midpoint, N> for Mixed<S> {
+impl<S: ClosedForm<Midpoint, N>, const N: usize> Fused<Midpoint, N> for Mixed<S> {
     type Matrix = S::Matrix;
     type Memory = VelocityHistory<S::Scalar, N>;
 
     const WRITTEN_OUT: bool = true;
 
-    fn discrete_lagrangian(
-        &self,
-        q0: &SVector<S::Scalar, N>,
-        q1: &SVector<S::Scalar, N>,
-        h: S::Scalar,
-    ) -> S::Scalar {
-        self.written.discrete_lagrangian(q0, q1, h)
+    fn step_kernel(&self, segment: &Segment<S::Scalar, N>) -> StepKernel<S::Scalar, N, S::Matrix> {
+        self.derivatives.step_kernel(segment)
     }
 
-    fn discrete_lagrangian_derivatives(
-        &self,
-        q0: &SVector<S::Scalar, N>,
-        q1: &SVector<S::Scalar, N>,
-        h: S::Scalar,
-    ) -> Derivatives<S::Scalar, N> {
-        self.written.discrete_lagrangian_derivatives(q0, q1, h)
+    fn momenta(&self, segment: &Segment<S::Scalar, N>) -> Momenta<S::Scalar, N> {
+        self.derivatives.momenta(segment)
+    }
+}
+
+impl<S: ClosedForm<Midpoint, N>, const N: usize> ClosedForm<Midpoint, N> for Mixed<S> {
+    fn discrete_lagrangian(&self, segment: &Segment<S::Scalar, N>) -> S::Scalar {
+        self.written.discrete_lagrangian(segment)
     }
 
-    fn discrete_force(
-        &self,
-        q0: &SVector<S::Scalar, N>,
-        q1: &SVector<S::Scalar, N>,
-        h: S::Scalar,
-    ) -> DiscreteForce<S::Scalar, N> {
-        self.written.discrete_force(q0, q1, h)
+    fn discrete_lagrangian_derivatives(&self, segment: &Segment<S::Scalar, N>) -> Derivatives<S::Scalar, N> {
+        self.written.discrete_lagrangian_derivatives(segment)
     }
 
-    fn step_kernel(
-        &self,
-        q0: &SVector<S::Scalar, N>,
-        v: &SVector<S::Scalar, N>,
-        h: S::Scalar,
-    ) -> StepKernel<S::Scalar, N, S::Matrix> {
-        self.derivatives.step_kernel(q0, v, h)
+    fn discrete_force(&self, segment: &Segment<S::Scalar, N>) -> DiscreteForce<S::Scalar, N> {
+        self.written.discrete_force(segment)
     }
 
-    fn momenta(
-        &self,
-        q0: &SVector<S::Scalar, N>,
-        v: &SVector<S::Scalar, N>,
-        h: S::Scalar,
-    ) -> Momenta<S::Scalar, N> {
-        self.derivatives.momenta(q0, v, h)
-    }
-
-    fn segment_energy(
-        &self,
-        q0: &SVector<S::Scalar, N>,
-        q1: &SVector<S::Scalar, N>,
-        h: S::Scalar,
-    ) -> S::Scalar {
-        self.written.segment_energy(q0, q1, h)
+    fn segment_energy(&self, segment: &Segment<S::Scalar, N>) -> S::Scalar {
+        self.written.segment_energy(segment)
     }
 }
 

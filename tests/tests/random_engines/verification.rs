@@ -6,8 +6,7 @@
 use dalembert::nalgebra::{Matrix1, SVector, Vector1, matrix, vector};
 use dalembert::rules::DisplacementRule;
 use dalembert::run::Explicit;
-use dalembert::step::Flow;
-use dalembert::step::{DiscreteForce, Momenta, StepKernel};
+use dalembert::step::{Flow, Fused, Momenta, Segment, StepKernel};
 use dalembert::system::verification;
 use dalembert::system::{
     ActingForce, Compared, CovectorDerivatives, Derivatives, Engine, ForcedLagrangian, Function,
@@ -104,6 +103,7 @@ impl Force<1> for Mutated {
 }
 
 impl ActingForce<1> for Mutated {
+    const HAS_RAYLEIGH: bool = true;
     const HAS_FORCE: bool = true;
 
     fn general_force_derivatives(&self, q: &Vector, v: &Vector) -> CovectorDerivatives<f64, 1> {
@@ -119,45 +119,24 @@ impl ForcedLagrangian<1> for Mutated {
 macro_rules! discrete {
     ($($rule:ident $memory:ident),*) => {
         $(
-            impl Discrete<$rule, 1> for Mutated {
+            impl Fused<$rule, 1> for Mutated {
                 type Matrix = Matrix;
                 type Memory = dalembert::run::$memory<f64, Matrix, 1>;
                 const WRITTEN_OUT: bool = true;
 
-                fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-                    <$rule as DisplacementRule>::discrete_lagrangian(self, q0, q1, h)
-                }
-
-                fn discrete_lagrangian_derivatives(&self, q0: &Vector, q1: &Vector, h: f64) -> Derivatives<f64, 1> {
-                    <$rule as DisplacementRule>::discrete_lagrangian_derivatives(self, q0, q1, h)
-                }
-
-                fn discrete_force(&self, q0: &Vector, q1: &Vector, h: f64) -> DiscreteForce<f64, 1> {
-                    <$rule as DisplacementRule>::rayleigh_force(self, q0, q1, h)
-                        + <$rule as DisplacementRule>::general_force(self, q0, q1, h)
-                }
-
-                fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
-                    let kernel = <$rule as DisplacementRule>::lagrangian_kernel(self, q0, v, h)
-                        + <$rule as DisplacementRule>::rayleigh_kernel(self, q0, v, h)
-                        + <$rule as DisplacementRule>::force_kernel(self, q0, v, h);
+                fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {
+                    let kernel = <$rule as DisplacementRule>::lagrangian_kernel(self, segment)
+                        + <$rule as DisplacementRule>::rayleigh_kernel(self, segment)
+                        + <$rule as DisplacementRule>::force_kernel(self, segment);
                     StepKernel { p0: kernel.p0 * (1.0 + self.fused[0]), ..kernel }
                 }
 
-                fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
-                    let momenta = <$rule as DisplacementRule>::lagrangian_momenta(self, q0, v, h)
-                        + <$rule as DisplacementRule>::rayleigh_momenta(self, q0, v, h)
-                        + <$rule as DisplacementRule>::force_momenta(self, q0, v, h);
+                fn momenta(&self, segment: &Segment<f64, 1>) -> Momenta<f64, 1> {
+                    let momenta = <$rule as DisplacementRule>::lagrangian_momenta(self, segment)
+                        + <$rule as DisplacementRule>::rayleigh_momenta(self, segment)
+                        + <$rule as DisplacementRule>::force_momenta(self, segment);
                     let [_, off_p0, off_p1, _] = self.fused;
                     Momenta { p0: momenta.p0 * (1.0 + off_p0), p1: momenta.p1 * (1.0 + off_p1) }
-                }
-
-                fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-                    <$rule as DisplacementRule>::segment_energy(self, q0, q1, h)
-                }
-
-                fn at_nodes(&self, q0: &Vector, v: &Vector, h: f64, visit: &mut dyn FnMut(&Self, &Vector, &Vector)) {
-                    <$rule as DisplacementRule>::at_nodes(self, q0, v, h, visit);
                 }
             }
         )*
@@ -424,17 +403,17 @@ fn views_and_joint_rules_are_verified_at_their_own_input_and_time() -> anyhow::R
     let (q, v) = (vector![0.3, -0.2], vector![1.1, 0.4]);
     driven.verify_generated(&q, &v)?;
     let start = State::from_velocity(&driven, q, v)?;
-    Discrete::<Midpoint, 2>::verify_segment(&driven, &q, &v, 0.1)?;
-    Discrete::<Trapezoidal, 2>::verify_segment(&driven, &q, &v, 0.1)?;
-    Discrete::<Gauss<5>, 2>::verify_segment(&driven, &q, &v, 0.1)?;
+    Discrete::<Midpoint, 2>::verify_segment(&driven, &Segment { q0: q, v, h: 0.1 })?;
+    Discrete::<Trapezoidal, 2>::verify_segment(&driven, &Segment { q0: q, v, h: 0.1 })?;
+    Discrete::<Gauss<5>, 2>::verify_segment(&driven, &Segment { q0: q, v, h: 0.1 })?;
     for step in driven.by(Gauss::<2>, 0.05).run(start).take(20) {
         step?;
     }
     let joint = Joint { m: 1.0, k: 2.0, r: 0.5 };
     let (q, v) = (SVector::from([0.3]), SVector::from([0.4]));
-    Discrete::<Fitted, 1>::verify_segment(&joint, &q, &v, 0.1)?;
-    Discrete::<FittedTrapezoidal, 1>::verify_segment(&joint, &q, &v, 0.1)?;
-    Discrete::<dalembert::OneSided, 1>::verify_segment(&joint, &q, &v, 0.1)?;
+    Discrete::<Fitted, 1>::verify_segment(&joint, &Segment { q0: q, v, h: 0.1 })?;
+    Discrete::<FittedTrapezoidal, 1>::verify_segment(&joint, &Segment { q0: q, v, h: 0.1 })?;
+    Discrete::<dalembert::OneSided, 1>::verify_segment(&joint, &Segment { q0: q, v, h: 0.1 })?;
     Ok(())
 }
 

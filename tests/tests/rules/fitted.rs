@@ -1,7 +1,7 @@
 //! The rules fitted to linear damping, and the one-sided one: what mathematics promises of them.
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
-use dalembert::step::DiscreteRayleigh;
+use dalembert::step::{ClosedForm, DiscreteRayleigh, Segment};
 use dalembert::{
     Discrete, Discretise, Fitted, FittedTrapezoidal, Lagrangian, Midpoint, OneSided, State, rayleigh_system,
 };
@@ -256,19 +256,19 @@ fn they_are_self_adjoint() {
 fn discrete_objects_and_transforms_agree() {
     fn agree<S, R: Copy, const N: usize>(system: &S, _: R, q0: SVector<f64, N>, q1: SVector<f64, N>)
     where
-        S: Discrete<R, N, Scalar = f64>,
+        S: ClosedForm<R, N, Scalar = f64>,
     {
         let h = 0.3;
-        let l = system.discrete_lagrangian_derivatives(&q0, &q1, h);
-        let f = system.discrete_force_derivatives(&q0, &q1, h);
-        let momenta = system.momenta(&q0, &((q1 - q0) / h), h);
-        let kernel = system.step_kernel(&q0, &((q1 - q0) / h), h);
-        assert!((l.value - system.discrete_lagrangian(&q0, &q1, h)).abs() < 1e-15);
+        let l = system.discrete_lagrangian_derivatives(&Segment::between(&q0, &q1, h));
+        let f = system.discrete_force_derivatives(&Segment::between(&q0, &q1, h));
+        let momenta = system.momenta(&Segment::between(&q0, &q1, h));
+        let kernel = system.step_kernel(&Segment::between(&q0, &q1, h));
+        assert!((l.value - system.discrete_lagrangian(&Segment::between(&q0, &q1, h))).abs() < 1e-15);
         assert!(
             (-l.d1 - f.minus.value - momenta.p0).amax() < 1e-14 && (kernel.p0 - momenta.p0).amax() < 1e-14
         );
         assert!((l.d2 + f.plus.value - momenta.p1).amax() < 1e-14);
-        let force = system.discrete_force(&q0, &q1, h);
+        let force = system.discrete_force(&Segment::between(&q0, &q1, h));
         assert!((force.minus - f.minus.value).amax() < 1e-15 && (force.plus - f.plus.value).amax() < 1e-15);
         let e = 1e-5;
         for j in 0..N {
@@ -280,10 +280,12 @@ fn discrete_objects_and_transforms_agree() {
                     (g(&q0, &(q1 + step)) - g(&q0, &(q1 - step))) / (2.0 * e),
                 ]
             };
-            let minus = by(&|a, b| system.discrete_force(a, b, h).minus);
-            let plus = by(&|a, b| system.discrete_force(a, b, h).plus);
-            let d1 = by(&|a, b| system.discrete_lagrangian_derivatives(a, b, h).d1);
-            let value = |a: &SVector<f64, N>, b: &SVector<f64, N>| system.discrete_lagrangian(a, b, h);
+            let minus = by(&|a, b| system.discrete_force(&Segment::between(a, b, h)).minus);
+            let plus = by(&|a, b| system.discrete_force(&Segment::between(a, b, h)).plus);
+            let d1 = by(&|a, b| system.discrete_lagrangian_derivatives(&Segment::between(a, b, h)).d1);
+            let value = |a: &SVector<f64, N>, b: &SVector<f64, N>| {
+                system.discrete_lagrangian(&Segment::between(a, b, h))
+            };
             assert!(
                 (minus[0] - f.minus.d1.column(j)).amax() < 1e-8
                     && (minus[1] - f.minus.d2.column(j)).amax() < 1e-8
@@ -296,7 +298,7 @@ fn discrete_objects_and_transforms_agree() {
             assert!(
                 ((value(&q0, &(q1 + step)) - value(&q0, &(q1 - step))) / (2.0 * e) - l.d2[j]).abs() < 1e-8
             );
-            let p0 = by(&|a, b| system.momenta(a, &((b - a) / h), h).p0);
+            let p0 = by(&|a, b| system.momenta(&Segment::between(a, b, h)).p0);
             assert!((p0[1] * h - SMatrix::<f64, N, N>::from(kernel.matrix_dense()).column(j)).amax() < 1e-8);
         }
     }
@@ -323,12 +325,13 @@ fn discrete_objects_and_transforms_agree() {
     where
         S: DiscreteRayleigh<R, N, Scalar = f64>,
     {
-        let r = system.discrete_rayleigh_derivatives(&q0, &q1, 0.3);
-        let f = system.discrete_force(&q0, &q1, 0.3);
+        let r = system.discrete_rayleigh_derivatives(&Segment::between(&q0, &q1, 0.3));
+        let f = system.discrete_force(&Segment::between(&q0, &q1, 0.3));
         assert!((r.d1 - f.minus).amax() < 1e-14 && (r.d2 + f.plus).amax() < 1e-14);
         let mut step = SVector::<f64, N>::zeros();
         step[0] = 1e-5;
-        let value = |a: &SVector<f64, N>, b: &SVector<f64, N>| system.discrete_rayleigh(a, b, 0.3);
+        let value =
+            |a: &SVector<f64, N>, b: &SVector<f64, N>| system.discrete_rayleigh(&Segment::between(a, b, 0.3));
         assert!(((value(&(q0 + step), &q1) - value(&(q0 - step), &q1)) / 2e-5 - r.d1[0]).abs() < 1e-9);
         assert!(((value(&q0, &(q1 + step)) - value(&q0, &(q1 - step))) / 2e-5 - r.d2[0]).abs() < 1e-9);
         assert!((value(&q0, &q1) - r.value).abs() < 1e-15);
@@ -345,7 +348,15 @@ fn the_explicit_one_contracts_phase_space_as_the_flow() {
     let h = 0.3;
     let state = State { q: vector![0.7, -0.3], p: vector![0.2, 0.9] };
     let step = COUPLED.by(FittedTrapezoidal, h).step(&state).unwrap().state;
-    let a = COUPLED.by(FittedTrapezoidal, h).linearization(&state.q, &step.q).unwrap().a.assembled::<4>();
+    let a = COUPLED
+        .by(FittedTrapezoidal, h)
+        .segment(&state.q, &step.q)
+        .unwrap()
+        .linearized()
+        .unwrap()
+        .by_state()
+        .unwrap()
+        .assembled::<4>();
     let (m, c) = (matrix![1.3, 0.4; 0.4, 0.9], matrix![0.5, -0.2; -0.2, 0.7]);
     let trace = (m.try_inverse().unwrap() * c).trace();
     let det = a.determinant();

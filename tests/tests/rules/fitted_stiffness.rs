@@ -1,22 +1,23 @@
 //! The rules fitted to linear damping, where it is stiff: stability, and the orders that are left.
 
 use dalembert::nalgebra::{Matrix2, vector};
+use dalembert::step::Linearizable;
 use dalembert::{Discrete, Discretise, Fitted, FittedTrapezoidal, Midpoint, State, rayleigh_system};
 
 /// ∂(q1, p1)/∂(q0, p0) of the oscillator at rest, m = 1, h = 1.
 fn at_rest<R: Copy>(rule: R, z: f64, stiffness: f64) -> Matrix2<f64>
 where
-    Oscillator: Discrete<R, 1, Scalar = f64>,
+    Oscillator: Linearizable<R, 1, Scalar = f64>,
 {
     let system = Oscillator { k: stiffness, r: 2.0 * z };
     let rest = vector![0.0];
-    system.by(rule, 1.0).linearization(&rest, &rest).unwrap().a.assembled()
+    system.by(rule, 1.0).segment(&rest, &rest).unwrap().linearized().unwrap().by_state().unwrap().assembled()
 }
 
 /// The largest modulus of the eigenvalues of the step of m q̈ + r q̇ + k q = 0.
 fn radius<R: Copy>(rule: R, z: f64, stiffness: f64) -> f64
 where
-    Oscillator: Discrete<R, 1, Scalar = f64>,
+    Oscillator: Linearizable<R, 1, Scalar = f64>,
 {
     let a = at_rest(rule, z, stiffness);
     let (mean, det) = (0.5 * a.trace(), a.determinant());

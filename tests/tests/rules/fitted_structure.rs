@@ -2,6 +2,7 @@
 //! keeps.
 
 use dalembert::nalgebra::{Matrix3, SMatrix, SVector, Vector3, matrix, vector};
+use dalembert::step::{ClosedForm, Linearizable, Segment};
 use dalembert::{
     Discrete, Discretise, Fitted, FittedTrapezoidal, Midpoint, State, Trapezoidal, rayleigh_system,
 };
@@ -121,10 +122,18 @@ fn linearization<S, R: Copy, const N: usize, const K: usize>(
     h: f64,
 ) -> SMatrix<f64, K, K>
 where
-    S: Discrete<R, N, Scalar = f64>,
+    S: Linearizable<R, N, Scalar = f64>,
 {
     let end = step(system, rule, state, h);
-    system.by(rule, h).linearization(&state.q, &end.q).unwrap().a.assembled::<K>()
+    system
+        .by(rule, h)
+        .segment(&state.q, &end.q)
+        .unwrap()
+        .linearized()
+        .unwrap()
+        .by_state()
+        .unwrap()
+        .assembled::<K>()
 }
 
 /// Largest entry of AᵀΩA − sΩ with the s that fits best, and this s.
@@ -184,7 +193,10 @@ fn the_force_of_the_implicit_one_is_rayleigh_where_damping_is_proportional() {
     let defect = |c: Form| {
         let system = Three { m: M, c, k: 2.1 };
         let end = vector![0.9, 0.2, -0.1];
-        let f = Discrete::<Fitted, 3>::discrete_force_derivatives(&system, &STATE.q, &end, 0.3);
+        let f = ClosedForm::<Fitted, 3>::discrete_force_derivatives(
+            &system,
+            &Segment::between(&STATE.q, &end, 0.3),
+        );
         let skew = |a: SMatrix<f64, 3, 3>| (a - a.transpose()).amax();
         skew(f.minus.d1).max(skew(f.plus.d2)).max((f.plus.d1 + f.minus.d2.transpose()).amax())
     };
@@ -209,7 +221,8 @@ fn the_force_of_the_implicit_one_is_rayleigh_where_damping_and_springs_have_comm
     for angle in [0.0_f64, 0.6] {
         let defect = |r: [f64; 2], coupling: f64| {
             let system = Pendula { r, turn: [angle.cos(), angle.sin()], coupling };
-            let f = Discrete::<Fitted, 2>::discrete_force_derivatives(&system, &q0, &q1, h);
+            let f =
+                ClosedForm::<Fitted, 2>::discrete_force_derivatives(&system, &Segment::between(&q0, &q1, h));
             skew(f.minus.d1).max(skew(f.plus.d2)).max((f.plus.d1 + f.minus.d2.transpose()).amax())
         };
         assert!(defect([0.3, 4.0], 0.0) < 1e-15, "{angle}");
@@ -225,7 +238,7 @@ fn the_force_of_the_implicit_one_is_rayleigh_where_damping_and_springs_have_comm
         0.25 * (r[0] * d[0] * d[0] + r[1] * d[1] * d[1])
             + h * (lag[0] * q[0].cos() + lag[1] * 2.0 * q[1].cos())
     };
-    let f = Discrete::<Fitted, 2>::discrete_force(&system, &q0, &q1, h);
+    let f = ClosedForm::<Fitted, 2>::discrete_force(&system, &Segment::between(&q0, &q1, h));
     for i in 0..2 {
         let mut e = SVector::<f64, 2>::zeros();
         e[i] = 1e-5;

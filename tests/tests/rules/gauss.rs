@@ -197,11 +197,11 @@ fn one_stage_is_the_midpoint_rule() {
             let l = |l: f64, m: f64| assert!((l - m).abs() < 1e-14 * (1.0 + m.abs()), "{l} {m}");
             l(
                 system.by(Gauss::<1>, h).segment(&q0, &q1).unwrap().discrete_lagrangian().unwrap(),
-                system.by(Midpoint, h).discrete_lagrangian(&q0, &q1),
+                system.by(Midpoint, h).segment(&q0, &q1).unwrap().discrete_lagrangian().unwrap(),
             );
             l(
                 system.by(Gauss::<1>, h).segment(&q0, &q1).unwrap().energy().unwrap(),
-                system.by(Midpoint, h).segment_energy(&q0, &q1),
+                system.by(Midpoint, h).segment(&q0, &q1).unwrap().energy().unwrap(),
             );
         }
     }
@@ -275,7 +275,7 @@ where
         assert!((sum - expected).amax() < tolerance, "S = {S}: {sum} {expected} {tolerance:e}");
     }
     // The Legendre transforms of the segment give the same momenta.
-    let momenta = Discrete::<Gauss<S>, N>::momenta(system, &start.q, &((end.q - start.q) / h), h);
+    let momenta = system.by(Gauss::<S>, h).segment(&start.q, &end.q).unwrap().momenta().unwrap();
     assert!((momenta.p0 - start.p).amax() < 1e-13 && (momenta.p1 - end.p).amax() < 1e-13, "S = {S}");
 }
 

@@ -3,7 +3,8 @@
 
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::noether::Generator;
-use dalembert::{Discrete, Discretise, Gauss, State, rayleigh_system, samples};
+use dalembert::step::Linearizable;
+use dalembert::{Discretise, Gauss, State, rayleigh_system, samples};
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::systems::{Bead, Charge, DoublePendulum, Follower};
 
@@ -21,11 +22,22 @@ fn step_matrix<L, const N: usize, const M: usize, const S: usize>(
     v: [f64; N],
 ) -> (SMatrix<f64, M, M>, SVector<f64, N>)
 where
-    L: ByHand<N> + Discrete<Gauss<S>, N, Scalar = f64>,
+    L: ByHand<N> + Linearizable<Gauss<S>, N, Scalar = f64>,
 {
     let start = State { q: q.into(), p: system.momentum(q, v) };
     let q1 = system.by(Gauss::<S>, H).step(&start).unwrap().state.q;
-    (system.by(Gauss::<S>, H).linearization(&start.q, &q1).unwrap().a.assembled::<M>(), q1)
+    (
+        system
+            .by(Gauss::<S>, H)
+            .segment(&start.q, &q1)
+            .unwrap()
+            .linearized()
+            .unwrap()
+            .by_state()
+            .unwrap()
+            .assembled::<M>(),
+        q1,
+    )
 }
 
 /// The same by central differences of order 4 of the step.
@@ -35,7 +47,7 @@ fn differenced<L, const N: usize, const M: usize, const S: usize>(
     v: [f64; N],
 ) -> SMatrix<f64, M, M>
 where
-    L: ByHand<N> + Discrete<Gauss<S>, N, Scalar = f64>,
+    L: ByHand<N> + Linearizable<Gauss<S>, N, Scalar = f64>,
 {
     let start = State { q: q.into(), p: system.momentum(q, v) };
     let delta = 1e-3;
@@ -60,7 +72,7 @@ fn step_matrices_agree<L, const N: usize, const M: usize, const S: usize>(
     v: [f64; N],
     is_symplectic: bool,
 ) where
-    L: ByHand<N> + Discrete<Gauss<S>, N, Scalar = f64>,
+    L: ByHand<N> + Linearizable<Gauss<S>, N, Scalar = f64>,
 {
     let (exact, _) = step_matrix::<L, N, M, S>(system, q, v);
     let other = differenced::<L, N, M, S>(system, q, v);
@@ -96,7 +108,7 @@ fn the_step_is_symplectic_without_force_and_only_then() {
 /// stages' own momenta; and AᵀΩA − Ω = Tᵀ(F − Fᵀ)T, which needs Df_d by itself.
 fn identities_hold<L, const N: usize, const M: usize, const S: usize>(system: &L, q: [f64; N], v: [f64; N])
 where
-    L: ByHand<N> + Discrete<Gauss<S>, N, Scalar = f64>,
+    L: ByHand<N> + Linearizable<Gauss<S>, N, Scalar = f64>,
 {
     let (a, q1) = step_matrix::<L, N, M, S>(system, q, v);
     let q0 = SVector::from(q);

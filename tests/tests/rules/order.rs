@@ -6,7 +6,7 @@ use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::rules::DisplacementRule;
 use dalembert::rules::SolvedForVelocity;
 use dalembert::run::VelocityHistory;
-use dalembert::step::{Momenta, StepKernel};
+use dalembert::step::{ClosedForm, Fused, Momenta, Segment, StepKernel};
 use dalembert::system::Derivatives;
 use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, Rayleigh, State, Trapezoidal};
 use dalembert_tests::by_hand::ByHand;
@@ -135,39 +135,39 @@ mod wrong {
         }
     }
 
-    impl<S, A: Alteration, const N: usize> Discrete<A, N> for Altered<S>
+    impl<S, A: Alteration, const N: usize> Fused<A, N> for Altered<S>
     where
         S: Rayleigh<N, Scalar = f64>,
     {
         type Matrix = SMatrix<f64, N, N>;
         type Memory = VelocityHistory<f64, N>;
 
-        fn discrete_lagrangian(&self, q0: &SVector<f64, N>, q1: &SVector<f64, N>, h: f64) -> f64 {
-            Midpoint::discrete_lagrangian(&self.0, q0, q1, h)
+        fn step_kernel(&self, segment: &Segment<f64, N>) -> StepKernel<f64, N> {
+            Midpoint::lagrangian_kernel(&self.0, segment)
+                + Midpoint::rayleigh_kernel(&self.0, segment) * A::factors(segment.h)[0]
         }
 
-        fn discrete_lagrangian_derivatives(
-            &self,
-            q0: &SVector<f64, N>,
-            q1: &SVector<f64, N>,
-            h: f64,
-        ) -> Derivatives<f64, N> {
-            Midpoint::discrete_lagrangian_derivatives(&self.0, q0, q1, h)
+        fn momenta(&self, segment: &Segment<f64, N>) -> Momenta<f64, N> {
+            let r = Midpoint::rayleigh_momenta(&self.0, segment);
+            let [minus, plus] = A::factors(segment.h);
+            Midpoint::lagrangian_momenta(&self.0, segment) + Momenta { p0: r.p0 * minus, p1: r.p1 * plus }
+        }
+    }
+
+    impl<S, A: Alteration, const N: usize> ClosedForm<A, N> for Altered<S>
+    where
+        S: Rayleigh<N, Scalar = f64>,
+    {
+        fn discrete_lagrangian(&self, segment: &Segment<f64, N>) -> f64 {
+            Midpoint::discrete_lagrangian(&self.0, segment)
         }
 
-        fn step_kernel(&self, q0: &SVector<f64, N>, v: &SVector<f64, N>, h: f64) -> StepKernel<f64, N> {
-            Midpoint::lagrangian_kernel(&self.0, q0, v, h)
-                + Midpoint::rayleigh_kernel(&self.0, q0, v, h) * A::factors(h)[0]
+        fn discrete_lagrangian_derivatives(&self, segment: &Segment<f64, N>) -> Derivatives<f64, N> {
+            Midpoint::discrete_lagrangian_derivatives(&self.0, segment)
         }
 
-        fn momenta(&self, q0: &SVector<f64, N>, v: &SVector<f64, N>, h: f64) -> Momenta<f64, N> {
-            let r = Midpoint::rayleigh_momenta(&self.0, q0, v, h);
-            let [minus, plus] = A::factors(h);
-            Midpoint::lagrangian_momenta(&self.0, q0, v, h) + Momenta { p0: r.p0 * minus, p1: r.p1 * plus }
-        }
-
-        fn segment_energy(&self, q0: &SVector<f64, N>, q1: &SVector<f64, N>, h: f64) -> f64 {
-            Midpoint::segment_energy(&self.0, q0, q1, h)
+        fn segment_energy(&self, segment: &Segment<f64, N>) -> f64 {
+            Midpoint::segment_energy(&self.0, segment)
         }
     }
 

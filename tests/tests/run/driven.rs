@@ -203,13 +203,15 @@ fn a_step_tells_how_it_follows_state_input_and_parameters() {
                     let before = *run.state();
                     let view = links.driven(u);
                     let taken = run.advance_linearized(&view).unwrap();
-                    let (_, cold) = view.by($method, 0.1).linearized_step_with_input::<2>(&before).unwrap();
-                    let (_, by) = view.by($method, 0.1).step_by_parameters::<2>(&before).unwrap();
+                    let cold = view.by($method, 0.1).linearized(&before).unwrap();
                     let (a, b) = (taken.by_state().unwrap(), taken.by_input::<2>().unwrap());
                     let theta = taken.by_parameters::<2>().unwrap();
-                    assert!((a.assembled::<4>() - cold.a.assembled::<4>()).amax() < 1e-11);
-                    assert!((b.assembled::<4>() - cold.b.assembled::<4>()).amax() < 1e-11);
-                    assert!((theta.assembled::<4>() - by.assembled::<4>()).amax() < 1e-11);
+                    let of_cold = cold.by_state().unwrap();
+                    assert!((a.assembled::<4>() - of_cold.assembled::<4>()).amax() < 1e-11);
+                    let of_cold = cold.by_input::<2>().unwrap();
+                    assert!((b.assembled::<4>() - of_cold.assembled::<4>()).amax() < 1e-11);
+                    let of_cold = cold.by_parameters::<2>().unwrap();
+                    assert!((theta.assembled::<4>() - of_cold.assembled::<4>()).amax() < 1e-11);
                     // By differences, of the step as it is taken.
                     let end = |links: &Links, u: [f64; 2]| {
                         links.driven(u).by($method, 0.1).step(&before).unwrap().state

@@ -400,8 +400,8 @@ fn derivatives_of_events_are_those_of_differences() {
     let mut a = dalembert::step::PhaseMatrix::identity();
     let mut state = start;
     while (state.q - found.from.q).amax() > 1e-12 {
-        let (step, linearization) = by.linearized_step(&state).unwrap();
-        (state, a) = (step.state, linearization.a * a);
+        let (step, of_step) = by.linearized_step(&state).unwrap();
+        (state, a) = (step.state, of_step * a);
     }
     let derivatives = derivatives.after(&a);
     let d = 1e-4;

@@ -1,11 +1,10 @@
 //! What is asked for and what is returned have names: a user keeps both in types of their own, and writes
 //! functions of them.
 
-use dalembert::derivative::StateBy;
 use dalembert::rules::SolvedForVelocity;
-use dalembert::step::{BoundedStep, StepWith};
+use dalembert::step::{BoundedStep, ClosedForm, StepTaken};
 use dalembert::tolerance::{GuardedTrajectory, OffersMethods, TimedRequest};
-use dalembert::{Discrete, Discretise, Midpoint, State, StepError, rayleigh_system};
+use dalembert::{Discretise, Midpoint, State, StepError, rayleigh_system};
 
 #[rayleigh_system(parameters = [k])]
 fn spring(q: [f64; 1], v: [f64; 1], k: f64) -> f64 {
@@ -21,12 +20,12 @@ type Offered = <Spring as OffersMethods<1>>::Methods;
 struct Bench<'a> {
     asked: TimedRequest<'a, Spring, Offered>,
     run: GuardedTrajectory<'a, Spring, Offered, 1>,
-    step: StepWith<f64, 1, StateBy<f64, 1, 1>>,
+    step: StepTaken<'a, Spring, Midpoint, 1>,
 }
 
 fn bounded<R: SolvedForVelocity>(system: &Spring, rule: R) -> Result<BoundedStep<f64, 1>, StepError>
 where
-    Spring: Discrete<R, 1, Scalar = f64>,
+    Spring: ClosedForm<R, 1, Scalar = f64>,
 {
     system.by(rule, H).step_within(&START, 2)
 }
@@ -38,16 +37,16 @@ fn results_are_kept_in_a_struct_and_steps_bounded_for_any_rule_that_can() {
     let mut bench = Bench {
         asked,
         run: asked.run(START).unwrap(),
-        step: spring.by(Midpoint, H).step_by_parameters(&START).unwrap(),
+        step: spring.by(Midpoint, H).linearized(&START).unwrap(),
     };
     bench.run.next().unwrap().unwrap();
     assert_eq!(bench.asked.choice(&START).unwrap().step_size(), bench.run.time());
 
     let within = bounded(&spring, Midpoint).unwrap();
     assert!(within.converged);
-    assert_eq!(bench.step.0.state, within.step.state);
+    assert_eq!(bench.step.step().state, within.step.state);
     // The midpoint rule's q1 = (1 − x)/(1 + x), x = h²k/4, by k.
     let x = 0.25 * H * H * spring.k;
     let expected = -0.5 * H * H / ((1.0 + x) * (1.0 + x));
-    assert!((bench.step.1.q[0] - expected).abs() < 1e-15);
+    assert!((bench.step.by_parameters().unwrap().q[0] - expected).abs() < 1e-15);
 }

@@ -5,9 +5,9 @@ use std::cell::Cell;
 
 use dalembert::rules::Fused;
 use dalembert::run::{KeptMatrix, VelocityHistory};
-use dalembert::step::{Banded, Momenta, StepKernel};
+use dalembert::step::{Banded, Momenta, Segment, StepKernel};
 use dalembert::system::{ActingForce, Derivatives};
-use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, State, rayleigh_system};
+use dalembert::{Discretise, Lagrangian, Midpoint, State, rayleigh_system};
 use nalgebra::{SMatrix, SVector};
 
 /// Three coupled turns whose inertias depend on the angles.
@@ -73,19 +73,14 @@ macro_rules! counted {
             type Matrix = $matrix;
             type Memory = $memory;
 
-            fn step_kernel(
-                &self,
-                q0: &SVector<f64, $n>,
-                v: &SVector<f64, $n>,
-                h: f64,
-            ) -> StepKernel<f64, $n, $matrix> {
+            fn step_kernel(&self, segment: &Segment<f64, $n>) -> StepKernel<f64, $n, $matrix> {
                 self.equations.set(self.equations.get() + 1);
-                Discrete::<Midpoint, $n>::step_kernel(&$system, q0, v, h)
+                Fused::<Midpoint, $n>::step_kernel(&$system, segment)
             }
 
-            fn momenta(&self, q0: &SVector<f64, $n>, v: &SVector<f64, $n>, h: f64) -> Momenta<f64, $n> {
+            fn momenta(&self, segment: &Segment<f64, $n>) -> Momenta<f64, $n> {
                 self.momenta.set(self.momenta.get() + 1);
-                Discrete::<Midpoint, $n>::momenta(&$system, q0, v, h)
+                Fused::<Midpoint, $n>::momenta(&$system, segment)
             }
         }
 

@@ -90,11 +90,9 @@ where
         let from = beside(&start, t);
         let (step, of) = by.linearized_step(&start).unwrap();
         let (twins, of_twin) = by_twin.linearized_step(&from).unwrap();
-        for (block, of_twin) in [
-            (of.a.q_by_q, of_twin.a.q_by_q),
-            (of.a.p_by_q, of_twin.a.p_by_q),
-            (of.a.p_by_p, of_twin.a.p_by_p),
-        ] {
+        for (block, of_twin) in
+            [(of.q_by_q, of_twin.q_by_q), (of.p_by_q, of_twin.p_by_q), (of.p_by_p, of_twin.p_by_p)]
+        {
             apart = apart.max((block - of_twin.fixed_view::<2, 2>(0, 0)).amax());
         }
         let [own, twins] =

@@ -84,17 +84,22 @@ fn none_in_the_derivatives_of_a_step() {
     assert_no_allocation(|| {
         let driven = motor.driven([0.4], 0.2);
         let end = driven.by(Midpoint, 0.1).step(&state).unwrap().state;
-        driven.by(Midpoint, 0.1).linearization_with_input(&state.q, &end.q).unwrap();
-        driven.by(Midpoint, 0.1).state_by_parameters(&state.q, &end.q).unwrap();
-        driven.by(Midpoint, 0.1).step_hessian(&state.q, &end.q, &state).unwrap();
-        let (step, _) = driven.by(Gauss::<3>, 0.1).linearized_step_with_input(&state).unwrap();
-        let end = step.state;
-        driven.by(Gauss::<3>, 0.1).linearization_with_input(&state.q, &end.q).unwrap();
-        driven.by(Gauss::<3>, 0.1).state_by_parameters(&state.q, &end.q).unwrap();
-        driven.by(Gauss::<3>, 0.1).step_hessian(&state.q, &end.q, &state).unwrap();
+        macro_rules! ask {
+            ($step:expr) => {
+                let step = $step.unwrap();
+                step.by_state().unwrap();
+                step.by_input::<1>().unwrap();
+                step.by_parameters::<1>().unwrap();
+                step.hessian::<1>(&state).unwrap();
+            };
+        }
+        ask!(driven.by(Midpoint, 0.1).linearized(&state));
+        ask!(driven.by(Midpoint, 0.1).segment(&state.q, &end.q).unwrap().linearized());
+        ask!(driven.by(Gauss::<3>, 0.1).linearized(&state));
+        ask!(driven.by(Gauss::<3>, 0.1).segment(&state.q, &end.q).unwrap().linearized());
         // Nor where there is none to be found.
         let nowhere = vector![f64::INFINITY];
-        driven.by(Gauss::<3>, 0.1).linearization_with_input(&state.q, &nowhere).unwrap_err();
+        assert!(driven.by(Gauss::<3>, 0.1).segment(&state.q, &nowhere).is_err());
     });
 }
 

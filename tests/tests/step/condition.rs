@@ -5,7 +5,7 @@
 //! systems of 1 to 8 coordinates.
 
 use dalembert::nalgebra::{DMatrix, SMatrix, SVector, vector};
-use dalembert::step::NewtonMatrix;
+use dalembert::step::{Fused, NewtonMatrix, Segment};
 use dalembert::system::Function;
 use dalembert::{
     Discrete, Discretise, Fitted, Gauss, Lagrangian, Midpoint, State, StepError, Trapezoidal, rayleigh_system,
@@ -31,7 +31,7 @@ where
 /// ∂p0/∂v̄ by central differences of the momentum, which no step kernel computes.
 fn by_differences<S, R: Copy, const N: usize>(
     system: &S,
-    _: R,
+    rule: R,
     q: &SVector<f64, N>,
     v: &SVector<f64, N>,
     h: f64,
@@ -44,7 +44,7 @@ where
         let at = |change: f64| {
             let mut v = *v;
             v[j] += change;
-            system.momenta(q, &v, h).p0[i]
+            system.by(rule, h).segment(q, &(q + v * h)).unwrap().momenta().unwrap().p0[i]
         };
         (at(e) - at(-e)) / (2.0 * e)
     })
@@ -217,14 +217,15 @@ fn the_chains_are_of_both_forms() {
         size_of::<M>() / (8 * size_of::<f64>())
     }
     let at_rest = SVector::<f64, 8>::zeros();
-    let kernel = Discrete::<Midpoint, 8>::step_kernel(
+    let kernel = Fused::<Midpoint, 8>::step_kernel(
         &eight::Springs { m: 1.0, k: 1.0, c: 0.0 },
-        &at_rest,
-        &at_rest,
-        0.1,
+        &Segment { q0: at_rest, v: at_rest, h: 0.1 },
     );
     assert_eq!(width(&kernel.matrix), 3);
-    let kernel = Discrete::<Midpoint, 8>::step_kernel(&eight::Full { k: 1.0 }, &at_rest, &at_rest, 0.1);
+    let kernel = Fused::<Midpoint, 8>::step_kernel(
+        &eight::Full { k: 1.0 },
+        &Segment { q0: at_rest, v: at_rest, h: 0.1 },
+    );
     assert_eq!(width(&kernel.matrix), 8);
 }
 

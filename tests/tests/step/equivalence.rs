@@ -11,9 +11,12 @@
 use dalembert::nalgebra::{Matrix2, Vector2};
 use dalembert::rules::SolvedForVelocity;
 use dalembert::run::VelocityHistory;
-use dalembert::step::{DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, StepKernel};
+use dalembert::step::{
+    ClosedForm, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Fused, Momenta, Segment,
+    StepKernel,
+};
 use dalembert::system::Derivatives;
-use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, State, Trapezoidal};
+use dalembert::{Discretise, Lagrangian, Midpoint, State, Trapezoidal};
 use dalembert_tests::systems::DoublePendulum;
 
 /// A function on Q with its gradient and second derivatives.
@@ -62,8 +65,7 @@ impl<R> Regauged<R> {
 
     /// a(q0) + b(q1) with derivatives, for a = Σ factor·function and b likewise.
     fn separated(
-        q0: &Vector2<f64>,
-        q1: &Vector2<f64>,
+        segment: &Segment<f64, 2>,
         a: [(f64, Function); 2],
         b: [(f64, Function); 2],
     ) -> Derivatives<f64, 2> {
@@ -79,16 +81,16 @@ impl<R> Regauged<R> {
                 },
             )
         };
-        let ((a, d1, d11), (b, d2, d22)) = (sum(a, q0), sum(b, q1));
+        let ((a, d1, d11), (b, d2, d22)) = (sum(a, &segment.q0), sum(b, &segment.end()));
         Derivatives { value: a + b, d1, d2, d11, d12: Matrix2::zeros(), d22 }
     }
 
-    fn phi(&self, q0: &Vector2<f64>, q1: &Vector2<f64>) -> Derivatives<f64, 2> {
-        Self::separated(q0, q1, [(1.0, PSI), (1.0, PHI_0)], [(1.0, PHI_1), (-1.0, PSI)])
+    fn phi(&self, segment: &Segment<f64, 2>) -> Derivatives<f64, 2> {
+        Self::separated(segment, [(1.0, PSI), (1.0, PHI_0)], [(1.0, PHI_1), (-1.0, PSI)])
     }
 
-    fn chi(&self, q0: &Vector2<f64>, q1: &Vector2<f64>) -> Derivatives<f64, 2> {
-        Self::separated(q0, q1, [(1.0, PSI), (-1.0, PHI_0)], [(self.sign, PHI_1), (1.0, PSI)])
+    fn chi(&self, segment: &Segment<f64, 2>) -> Derivatives<f64, 2> {
+        Self::separated(segment, [(1.0, PSI), (-1.0, PHI_0)], [(self.sign, PHI_1), (1.0, PSI)])
     }
 }
 
@@ -104,39 +106,46 @@ impl<R> Lagrangian<2> for Regauged<R> {
     }
 }
 
-impl<R: SolvedForVelocity> Discrete<R, 2> for Regauged<R>
+impl<R: SolvedForVelocity> Fused<R, 2> for Regauged<R>
 where
     DoublePendulum: DiscreteRayleigh<R, 2, Scalar = f64>,
 {
     type Matrix = Matrix2<f64>;
     type Memory = VelocityHistory<f64, 2>;
 
-    fn discrete_lagrangian(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> f64 {
-        Discrete::<R, 2>::discrete_lagrangian(&self.system, q0, q1, h) + self.phi(q0, q1).value
+    fn step_kernel(&self, segment: &Segment<f64, 2>) -> StepKernel<f64, 2> {
+        let l = self.discrete_lagrangian_derivatives(segment);
+        let force = self.discrete_force_derivatives(segment);
+        StepKernel { p0: -l.d1 - force.minus.value, matrix: -(l.d12 + force.minus.d2) * segment.h }
     }
 
-    fn discrete_lagrangian_derivatives(
-        &self,
-        q0: &Vector2<f64>,
-        q1: &Vector2<f64>,
-        h: f64,
-    ) -> Derivatives<f64, 2> {
-        Discrete::<R, 2>::discrete_lagrangian_derivatives(&self.system, q0, q1, h) + self.phi(q0, q1)
+    fn momenta(&self, segment: &Segment<f64, 2>) -> Momenta<f64, 2> {
+        let l = self.discrete_lagrangian_derivatives(segment);
+        let force = self.discrete_force(segment);
+        Momenta { p0: -l.d1 - force.minus, p1: l.d2 + force.plus }
+    }
+}
+
+impl<R: SolvedForVelocity> ClosedForm<R, 2> for Regauged<R>
+where
+    DoublePendulum: DiscreteRayleigh<R, 2, Scalar = f64>,
+{
+    fn discrete_lagrangian(&self, segment: &Segment<f64, 2>) -> f64 {
+        ClosedForm::<R, 2>::discrete_lagrangian(&self.system, segment) + self.phi(segment).value
     }
 
-    fn discrete_force(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> DiscreteForce<f64, 2> {
-        let force = self.discrete_force_derivatives(q0, q1, h);
+    fn discrete_lagrangian_derivatives(&self, segment: &Segment<f64, 2>) -> Derivatives<f64, 2> {
+        ClosedForm::<R, 2>::discrete_lagrangian_derivatives(&self.system, segment) + self.phi(segment)
+    }
+
+    fn discrete_force(&self, segment: &Segment<f64, 2>) -> DiscreteForce<f64, 2> {
+        let force = self.discrete_force_derivatives(segment);
         DiscreteForce { minus: force.minus.value, plus: force.plus.value }
     }
 
-    fn discrete_force_derivatives(
-        &self,
-        q0: &Vector2<f64>,
-        q1: &Vector2<f64>,
-        h: f64,
-    ) -> DiscreteForceDerivatives<f64, 2> {
+    fn discrete_force_derivatives(&self, segment: &Segment<f64, 2>) -> DiscreteForceDerivatives<f64, 2> {
         let (mut force, chi) =
-            (Discrete::<R, 2>::discrete_force_derivatives(&self.system, q0, q1, h), self.chi(q0, q1));
+            (ClosedForm::<R, 2>::discrete_force_derivatives(&self.system, segment), self.chi(segment));
         force.minus.value += chi.d1;
         force.minus.d1 += chi.d11;
         force.plus.value -= chi.d2;
@@ -144,22 +153,8 @@ where
         force
     }
 
-    fn step_kernel(&self, q0: &Vector2<f64>, v: &Vector2<f64>, h: f64) -> StepKernel<f64, 2> {
-        let q1 = q0 + v * h;
-        let l = self.discrete_lagrangian_derivatives(q0, &q1, h);
-        let force = self.discrete_force_derivatives(q0, &q1, h);
-        StepKernel { p0: -l.d1 - force.minus.value, matrix: -(l.d12 + force.minus.d2) * h }
-    }
-
-    fn momenta(&self, q0: &Vector2<f64>, v: &Vector2<f64>, h: f64) -> Momenta<f64, 2> {
-        let q1 = q0 + v * h;
-        let l = self.discrete_lagrangian_derivatives(q0, &q1, h);
-        let force = self.discrete_force(q0, &q1, h);
-        Momenta { p0: -l.d1 - force.minus, p1: l.d2 + force.plus }
-    }
-
-    fn segment_energy(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> f64 {
-        self.system.segment_energy(q0, q1, h)
+    fn segment_energy(&self, segment: &Segment<f64, 2>) -> f64 {
+        self.system.segment_energy(segment)
     }
 }
 

@@ -138,7 +138,7 @@ mod num_dual {
 }
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
-use dalembert::step::{DiscreteDriven, NewtonMatrix};
+use dalembert::step::{ClosedForm, DiscreteDriven, Fused, NewtonMatrix, Segment};
 use dalembert::system::{Blank, Direction, ForcedLagrangian, Lanes, Scalar};
 use dalembert::{
     Composition, Discrete, Discretise, EnergyLedger, Force, Gauss, Lagrangian, Midpoint, Rayleigh, State,
@@ -174,8 +174,8 @@ fn points<S: Scalar, const N: usize>() -> impl Iterator<Item = (SVector<S, N>, S
 /// All that a rule offers of two systems.
 fn compare<A, B, R, const N: usize>(a: &A, b: &B, difference: &mut Difference)
 where
-    A: Discrete<R, N> + Force<N>,
-    B: Discrete<R, N, Scalar = A::Scalar> + Force<N>,
+    A: ClosedForm<R, N> + Force<N>,
+    B: ClosedForm<R, N, Scalar = A::Scalar> + Force<N>,
 {
     let constant = A::Scalar::constant;
     let h = constant(0.15);
@@ -190,41 +190,54 @@ where
         difference.of(fa.d1, fb.d1);
         difference.of(fa.d2, fb.d2);
         difference.of(a.force_variation(&q, &v, direction).1, b.force_variation(&q, &v, direction).1);
-        let (ka, kb) = (a.step_kernel(&q, &v, h), b.step_kernel(&q, &v, h));
+        let (ka, kb) = (a.step_kernel(&Segment { q0: q, v, h }), b.step_kernel(&Segment { q0: q, v, h }));
         difference.of(ka.p0, kb.p0);
         difference.of(ka.matrix.dense(), kb.matrix.dense());
-        let (ma, mb) = (a.momenta(&q, &v, h), b.momenta(&q, &v, h));
+        let (ma, mb) = (a.momenta(&Segment { q0: q, v, h }), b.momenta(&Segment { q0: q, v, h }));
         difference.of(ma.p0, mb.p0);
         difference.of(ma.p1, mb.p1);
         let q1 = q + v * h;
-        let (da, db) =
-            (a.discrete_lagrangian_derivatives(&q, &q1, h), b.discrete_lagrangian_derivatives(&q, &q1, h));
+        let (da, db) = (
+            a.discrete_lagrangian_derivatives(&Segment::between(&q, &q1, h)),
+            b.discrete_lagrangian_derivatives(&Segment::between(&q, &q1, h)),
+        );
         difference.of(vector![da.value], vector![db.value]);
-        difference.of(vector![da.value], vector![a.discrete_lagrangian(&q, &q1, h)]);
+        difference.of(vector![da.value], vector![a.discrete_lagrangian(&Segment::between(&q, &q1, h))]);
         difference.of(da.d11, db.d11);
-        let (fa, fb) = (a.discrete_force_derivatives(&q, &q1, h), b.discrete_force_derivatives(&q, &q1, h));
+        let (fa, fb) = (
+            a.discrete_force_derivatives(&Segment::between(&q, &q1, h)),
+            b.discrete_force_derivatives(&Segment::between(&q, &q1, h)),
+        );
         difference.of(fa.plus.value, fb.plus.value);
         difference.of(fa.minus.d2, fb.minus.d2);
         // Written out by hand from L_d and f_d, the momenta are the kernel's.
         difference.of(-da.d1 - fa.minus.value, ma.p0);
         difference.of(da.d2 + fa.plus.value, ma.p1);
         difference.of(-(da.d12 + fa.minus.d2) * h, ka.matrix.dense());
-        difference.of(vector![a.segment_energy(&q, &q1, h)], vector![b.segment_energy(&q, &q1, h)]);
+        difference.of(
+            vector![a.segment_energy(&Segment::between(&q, &q1, h))],
+            vector![b.segment_energy(&Segment::between(&q, &q1, h))],
+        );
     }
 }
 
 fn compare_inputs<A, B, R, const N: usize, const M: usize>(a: &A, b: &B, difference: &mut Difference)
 where
-    A: DiscreteDriven<R, N, M>,
-    B: DiscreteDriven<R, N, M, Scalar = A::Scalar>,
+    A: ClosedForm<R, N> + DiscreteDriven<R, N, M>,
+    B: ClosedForm<R, N> + DiscreteDriven<R, N, M, Scalar = A::Scalar>,
+    R: Default,
 {
     compare::<A, B, R, N>(a, b, difference);
     let h = A::Scalar::constant(0.15);
     for (q, v) in points::<A::Scalar, N>() {
         difference.of(a.force_by_input(&q, &v), b.force_by_input(&q, &v));
-        let (ma, mb) = (a.momenta_by_input(&q, &v, h), b.momenta_by_input(&q, &v, h));
-        difference.of(ma.p0, mb.p0);
-        difference.of(ma.p1, mb.p1);
+        let q1 = q + v * h;
+        let (by_a, by_b) = (a.by(R::default(), h), b.by(R::default(), h));
+        let (a, b) = (by_a.segment(&q, &q1).unwrap(), by_b.segment(&q, &q1).unwrap());
+        let (a, b) = (a.linearized().unwrap(), b.linearized().unwrap());
+        let (a, b) = (a.by_input::<M>().unwrap(), b.by_input::<M>().unwrap());
+        difference.of(a.q, b.q);
+        difference.of(a.p, b.p);
     }
 }
 
@@ -541,9 +554,9 @@ trait MomentaOfMidpoint {
     fn momenta_of_midpoint(&self, h: f64) -> [f64; 2];
 }
 
-impl<L: Discrete<Midpoint, 1, Scalar = f64>> MomentaOfMidpoint for L {
+impl<L: Fused<Midpoint, 1, Scalar = f64>> MomentaOfMidpoint for L {
     fn momenta_of_midpoint(&self, h: f64) -> [f64; 2] {
-        let momenta = self.momenta(&vector![0.1], &vector![0.5], h);
+        let momenta = self.momenta(&Segment { q0: vector![0.1], v: vector![0.5], h });
         [momenta.p0[0], momenta.p1[0]]
     }
 }

@@ -4,7 +4,7 @@
 //! the step. Each has a control: a system, or a change, for which the same check fails.
 
 use dalembert::nalgebra::{Matrix2, Matrix4, SVector, Vector4};
-use dalembert::step::{DiscreteRayleigh, NewtonMatrix, Step};
+use dalembert::step::{DiscreteRayleigh, Fused, Linearizable, NewtonMatrix, Segment, Step};
 use dalembert::{
     Discrete, Discretise, EnergyLedger, Gauss, Midpoint, State, StepError, Trajectory, Trapezoidal,
     rayleigh_system,
@@ -289,12 +289,12 @@ fn reversal<R: Copy>(
     h: f64,
 ) -> Option<(Vector4<f64>, Vector4<f64>)>
 where
-    Masses: Discrete<R, 2, Scalar = f64>,
+    Masses: Linearizable<R, 2, Scalar = f64>,
 {
     let there = system.by(rule, h).step(&start).ok()?;
     let turned = State { q: there.state.q, p: -there.state.p };
     let back = system.by(rule, h).step(&turned).ok()?;
-    let a = system.by(rule, h).linearization(&turned.q, &back.state.q).ok()?.a;
+    let a = system.by(rule, h).segment(&turned.q, &back.state.q).ok()?.linearized().ok()?.by_state().ok()?;
     let (q, p) = (back.state.q - start.q, back.state.p + start.p);
     let bound = carried(&a.assembled::<4>(), &turned, &back, 64.0)
         + carried(&Matrix4::identity(), &start, &there, 64.0);
@@ -316,19 +316,19 @@ fn omega() -> Matrix4<f64> {
 /// Condition of the step's matrix, in units of the coordinates as they are.
 fn condition<R>(system: &Masses, q0: &SVector<f64, 2>, v: &SVector<f64, 2>, h: f64) -> Option<f64>
 where
-    Masses: Discrete<R, 2, Scalar = f64>,
+    Masses: Fused<R, 2, Scalar = f64>,
 {
-    let matrix = system.step_kernel(q0, v, h).matrix.dense();
+    let matrix = system.step_kernel(&Segment { q0: *q0, v: *v, h }).matrix.dense();
     Some(matrix.norm() * matrix.try_inverse()?.norm())
 }
 
 /// Largest entry of AᵀΩA − Ω, momenta in units of m/h, and what rounding allows.
 fn symplecticity<R: Copy>(system: &Masses, rule: R, start: State<f64, 2>, h: f64) -> Option<(f64, f64)>
 where
-    Masses: Discrete<R, 2, Scalar = f64>,
+    Masses: Fused<R, 2, Scalar = f64> + Linearizable<R, 2>,
 {
     let step = system.by(rule, h).step(&start).ok()?;
-    let a = system.by(rule, h).linearization(&start.q, &step.state.q).ok()?.a;
+    let a = system.by(rule, h).segment(&start.q, &step.state.q).ok()?.linearized().ok()?.by_state().ok()?;
     let unit = system.m[0].max(system.m[1]) / h;
     let units = Vector4::new(1.0, 1.0, unit, unit);
     let a = a.assembled::<4>().map_with_location(|i, j, entry| entry * units[j] / units[i]);
@@ -340,13 +340,13 @@ where
 /// How far det A is from det D1D2 L_d⁻ / det D1D2 L_d⁺, as a share, and what rounding allows.
 fn determinant<R: Copy>(system: &Masses, rule: R, start: State<f64, 2>, h: f64) -> Option<(f64, f64)>
 where
-    Masses: DiscreteRayleigh<R, 2, Scalar = f64>,
+    Masses: DiscreteRayleigh<R, 2, Scalar = f64> + Linearizable<R, 2>,
 {
     let step = system.by(rule, h).step(&start).ok()?;
     let (q0, q1) = (&start.q, &step.state.q);
-    let a = system.by(rule, h).linearization(q0, q1).ok()?.a.assembled::<4>();
-    let minus = system.modified_minus_derivatives(q0, q1, h).d12;
-    let plus = system.modified_plus_derivatives(q0, q1, h).d12;
+    let a = system.by(rule, h).segment(q0, q1).ok()?.linearized().ok()?.by_state().ok()?.assembled::<4>();
+    let minus = system.modified_minus_derivatives(&Segment::between(q0, q1, h)).d12;
+    let plus = system.modified_plus_derivatives(&Segment::between(q0, q1, h)).d12;
     // Each determinant to the rounding of its products, which may cancel.
     let products = |m: &Matrix2<f64>| (m[(0, 0)] * m[(1, 1)]).abs() + (m[(0, 1)] * m[(1, 0)]).abs();
     let of_plus = plus.determinant().abs();
@@ -483,7 +483,14 @@ fn every_check_can_fail() {
     let (_, bound) = determinant(&EXAMPLE, Midpoint, start, h).unwrap();
     let of = |system: &Masses| {
         let step = system_step(system, &start, h).unwrap();
-        let a = system.by(Midpoint, h).linearization(&start.q, &step.state.q).unwrap().a;
+        let a = system
+            .by(Midpoint, h)
+            .segment(&start.q, &step.state.q)
+            .unwrap()
+            .linearized()
+            .unwrap()
+            .by_state()
+            .unwrap();
         a.assembled::<4>().determinant()
     };
     assert!((of(&EXAMPLE) - of(&EXAMPLE.frictionless())).abs() > 1e6 * bound);

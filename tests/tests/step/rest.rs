@@ -2,9 +2,9 @@
 //! v and p show nothing there.
 
 use dalembert::nalgebra::{Vector2, Vector3, matrix, vector};
-use dalembert::step::Flow;
+use dalembert::step::{Flow, Fused, Segment};
 use dalembert::system::ActingForce;
-use dalembert::{Discrete, Discretise, Fitted, Midpoint, OneSided, State, StepError, rayleigh_system};
+use dalembert::{Discretise, Fitted, Midpoint, OneSided, State, StepError, rayleigh_system};
 use dalembert_tests::draws::Draws;
 
 /// A mass between two springs.
@@ -202,9 +202,9 @@ fn a_mass_comes_to_rest_by_rules_that_take_the_damping_in_their_own_way() {
 
 fn cancelling_terms<L, const N: usize>(system: &L, q: [f64; N], v: [f64; N]) -> [f64; N]
 where
-    L: Discrete<Midpoint, N, Scalar = f64>,
+    L: Fused<Midpoint, N, Scalar = f64>,
 {
-    system.cancelling_terms(&q.into(), &v.into(), 0.1).into()
+    system.cancelling_terms(&Segment { q0: q.into(), v: v.into(), h: 0.1 }).into()
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::run::VelocityHistory;
-use dalembert::step::{Momenta, Quantity, StepKernel};
+use dalembert::step::{ClosedForm, Fused, Momenta, Quantity, Segment, StepKernel};
 use dalembert::system::{Derivatives, Function};
 use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
 use dalembert_tests::systems::{Bead, DoublePendulum, Pendulum};
@@ -277,43 +277,40 @@ impl Lagrangian<1> for Quantised {
     }
 }
 
-impl Discrete<Midpoint, 1> for Quantised {
+impl Fused<Midpoint, 1> for Quantised {
     type Matrix = SMatrix<f64, 1, 1>;
     type Memory = VelocityHistory<f64, 1>;
 
-    fn discrete_lagrangian(&self, q0: &SVector<f64, 1>, q1: &SVector<f64, 1>, h: f64) -> f64 {
-        h * self.lagrangian(q0, &((q1 - q0) / h))
-    }
-
-    fn discrete_lagrangian_derivatives(
-        &self,
-        q0: &SVector<f64, 1>,
-        q1: &SVector<f64, 1>,
-        h: f64,
-    ) -> Derivatives<f64, 1> {
-        let l = self.lagrangian_derivatives(q0, &((q1 - q0) / h));
-        Derivatives {
-            value: h * l.value,
-            d1: -l.d2,
-            d2: l.d2,
-            d11: l.d22 / h,
-            d12: -l.d22 / h,
-            d22: l.d22 / h,
-        }
-    }
-
-    fn step_kernel(&self, q0: &SVector<f64, 1>, v: &SVector<f64, 1>, _: f64) -> StepKernel<f64, 1> {
-        let l = self.lagrangian_derivatives(q0, v);
+    fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {
+        let l = self.lagrangian_derivatives(&segment.q0, &segment.v);
         StepKernel { p0: l.d2, matrix: l.d22 }
     }
 
-    fn momenta(&self, q0: &SVector<f64, 1>, v: &SVector<f64, 1>, _: f64) -> Momenta<f64, 1> {
-        let p = self.lagrangian_derivatives(q0, v).d2;
+    fn momenta(&self, segment: &Segment<f64, 1>) -> Momenta<f64, 1> {
+        let p = self.lagrangian_derivatives(&segment.q0, &segment.v).d2;
         Momenta { p0: p, p1: p }
     }
+}
 
-    fn segment_energy(&self, q0: &SVector<f64, 1>, q1: &SVector<f64, 1>, h: f64) -> f64 {
-        self.energy(q0, &((q1 - q0) / h))
+impl ClosedForm<Midpoint, 1> for Quantised {
+    fn discrete_lagrangian(&self, segment: &Segment<f64, 1>) -> f64 {
+        segment.h * self.lagrangian(&segment.q0, &segment.v)
+    }
+
+    fn discrete_lagrangian_derivatives(&self, segment: &Segment<f64, 1>) -> Derivatives<f64, 1> {
+        let l = self.lagrangian_derivatives(&segment.q0, &segment.v);
+        Derivatives {
+            value: segment.h * l.value,
+            d1: -l.d2,
+            d2: l.d2,
+            d11: l.d22 / segment.h,
+            d12: -l.d22 / segment.h,
+            d22: l.d22 / segment.h,
+        }
+    }
+
+    fn segment_energy(&self, segment: &Segment<f64, 1>) -> f64 {
+        self.energy(&segment.q0, &segment.v)
     }
 }
 
@@ -621,7 +618,8 @@ fn reports_state_the_residual_of_the_solution() {
     let mut state = start;
     for _ in 0..200 {
         let step = system.by(Midpoint, 0.1).step(&state).unwrap();
-        let p0 = Discrete::<Midpoint, 2>::momenta(&system, &state.q, &step.velocity, 0.1).p0;
+        let p0 =
+            Fused::<Midpoint, 2>::momenta(&system, &Segment { q0: state.q, v: step.velocity, h: 0.1 }).p0;
         let residual = (p0 - state.p).abs();
         assert!(residual.iter().any(|r| *r == step.report.residual), "{residual} {:?}", step.report);
         assert!(step.report.residual <= 4.0 * step.report.floor, "{:?}", step.report);

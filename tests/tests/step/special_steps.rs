@@ -136,7 +136,7 @@ mod general {
 
 use dalembert::nalgebra::SVector;
 use dalembert::run::VelocityHistory;
-use dalembert::step::{Memory, Quantity};
+use dalembert::step::{Fused, Memory, Quantity};
 use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
 
 /// The end of a run, and the largest number of iterations of a step after the first few.
@@ -228,7 +228,7 @@ fn another_parameter_leads_elsewhere() {
 /// What the paths are is known before a step is taken.
 #[test]
 fn paths_are_chosen_by_structure() {
-    fn is_linear<L: Discrete<R, N>, R, const N: usize>(_: &L, _: R) -> bool {
+    fn is_linear<L: Fused<R, N>, R, const N: usize>(_: &L, _: R) -> bool {
         L::LINEAR
     }
     let (oscillator, ring) = (special::Oscillator { m: 1.0, k: 1.0, r: 0.1 }, special::Ring { k: 0.1 });
@@ -256,11 +256,11 @@ fn memories_follow_the_state_and_the_step_size() {
     where
         L: Discrete<R, N, Scalar = f64>,
     {
-        let mut memory = L::Memory::default();
+        let mut memory = L::RunMemory::default();
         for (state, h) in [(0, 0.05), (0, 0.05), (1, 0.05), (1, 0.02), (0, 0.02), (0, -0.05), (1, 0.05)] {
             for _ in 0..3 {
                 let remembered = memory.advance(system, &states[state], h).unwrap();
-                let fresh = L::Memory::default().advance(system, &states[state], h).unwrap();
+                let fresh = L::RunMemory::default().advance(system, &states[state], h).unwrap();
                 let general = VelocityHistory::default().advance(system, &states[state], h).unwrap();
                 for other in [fresh, general] {
                     let change = remembered.state.q - other.state.q;
@@ -308,7 +308,7 @@ fn errors_are_those_of_the_general_step() {
         };
         // Without a memory, and with one that has settled.
         for settled in [0, 8] {
-            let mut memory = L::Memory::default();
+            let mut memory = L::RunMemory::default();
             let mut state = good;
             for _ in 0..settled {
                 state = memory.advance(system, &state, 0.05).unwrap().state;
@@ -350,7 +350,7 @@ fn edge(q: [f64; 2], v: [f64; 2], m: f64, c: f64) -> (f64, f64) {
 #[test]
 fn a_force_that_is_no_number_has_a_name() {
     let edge = Edge { m: 1.0, c: 0.0 };
-    let mut memory = <Edge as Discrete<Trapezoidal, 2>>::Memory::default();
+    let mut memory = <Edge as Fused<Trapezoidal, 2>>::Memory::default();
     let mut state = State { q: SVector::from([0.9, 0.0]), p: [0.5, 0.0].into() };
     let error = (0..1000).find_map(|_| {
         match Memory::<_, Trapezoidal, 2>::advance(&mut memory, &edge, &state, 0.02) {
@@ -369,7 +369,7 @@ fn singular_matrices_have_names() {
     // No mass, no damping: momenta do not determine velocities.
     let state = State { q: SVector::from([0.5, 0.0]), p: [0.5, 0.0].into() };
     let massless = Edge { m: 0.0, c: 0.0 };
-    let mut memory = <Edge as Discrete<Trapezoidal, 2>>::Memory::default();
+    let mut memory = <Edge as Fused<Trapezoidal, 2>>::Memory::default();
     let error = Memory::<_, Trapezoidal, 2>::advance(&mut memory, &massless, &state, 0.1).unwrap_err();
     assert_eq!(error, StepError::DegenerateLagrangian { column: 0 });
     // Damping makes the step's matrix regular; the Lagrangian stays degenerate.

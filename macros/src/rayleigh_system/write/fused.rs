@@ -117,15 +117,15 @@ pub fn fused(
             #linear
             #written_out
 
-            /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+            /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
             #inline_kernel
-            fn step_kernel(&self, q0: &Vector, v: &Vector, h: #scalar) -> #kernel {
+            fn step_kernel(&self, segment: &Segment<#scalar, #n>) -> #kernel {
                 #step_kernel
             }
 
-            /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+            /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
             #inline_momenta
-            fn momenta(&self, q0: &Vector, v: &Vector, h: #scalar) -> Momenta<#scalar, #n> {
+            fn momenta(&self, segment: &Segment<#scalar, #n>) -> Momenta<#scalar, #n> {
                 #momenta
             }
 
@@ -143,7 +143,7 @@ pub fn fused(
 /// Whether some function is a rule's own, as [`of_terms`] and [`cancelling_terms`] write it.
 pub fn asks_rules(system: &System<'_>, may_cancel: bool, kernels: &[Option<Kernel>]) -> bool {
     system.rules.of_displacement.iter().zip(kernels).any(|(rule, kernel)| {
-        let asks = kernel.is_none() || system.second || may_cancel && rule.asks_for_cancelling_terms();
+        let asks = kernel.is_none() || may_cancel && rule.asks_for_cancelling_terms();
         rule.joint().is_none() && asks
     })
 }
@@ -153,14 +153,14 @@ pub fn asks_rules(system: &System<'_>, may_cancel: bool, kernels: &[Option<Kerne
 fn of_terms(system: &System<'_>, rule: Rule) -> Kernel {
     let name = rule.ident();
     let joint = rule.joint();
-    // Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0, v, h)
+    // Midpoint::lagrangian_kernel(self, segment) + Midpoint::rayleigh_kernel(self, segment)
     let terms = |function: &str| {
         let terms = system.parts().map(|part| format_ident!("{}_{function}", part.name()));
-        quote!(#(#name::#terms(self, q0, v, h))+*)
+        quote!(#(#name::#terms(self, segment))+*)
     };
     let [step_kernel, momenta] = match joint {
         Some(_) => [quote!(step_kernel), quote!(momenta)]
-            .map(|function| quote!(<#name as JointRule>::#function(self, q0, v, h))),
+            .map(|function| quote!(<#name as JointRule>::#function(self, segment))),
         None => ["kernel", "momenta"].map(terms),
     };
     Kernel {
@@ -177,13 +177,13 @@ fn of_terms(system: &System<'_>, rule: Rule) -> Kernel {
 
 /// `fn cancelling_terms`, by the rule.
 fn cancelling_terms(system: &System<'_>, rule: Rule) -> TokenStream {
-    let (scalar, name) = (&system.scalar, rule.ident());
+    let (scalar, n, name) = (&system.scalar, system.degrees.times(1), rule.ident());
     let functions = rule.joint().map_or_else(|| quote!(#name), |_| quote!(<#name as JointRule>));
     quote! {
         /// Sizes of the terms that cancel in p0, at rest for instance.
         #[cold]
-        fn cancelling_terms(&self, q0: &Vector, v: &Vector, h: #scalar) -> Vector {
-            #functions::cancelling_terms(self, q0, v, h)
+        fn cancelling_terms(&self, segment: &Segment<#scalar, #n>) -> Vector {
+            #functions::cancelling_terms(self, segment)
         }
     }
 }

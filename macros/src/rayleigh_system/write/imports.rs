@@ -46,13 +46,11 @@ fn of_traits(system: &System<'_>) -> Vec<&'static str> {
         names.push("ForcedLagrangian");
     }
     if !rules.of_displacement.is_empty() {
-        names.extend(["Fused", "Momenta", "StepKernel"]);
+        names.extend(["Fused", "Momenta", "Segment", "StepKernel"]);
         if !rules.joint.is_empty() {
             names.push("JointRule");
         }
     }
-    // What the runtime gives of every forced Lagrangian, Gauss rules need no name for.
-    let of_displacement = |name| (!rules.of_displacement.is_empty()).then_some(name);
     if system.input.is_some() {
         names.push("Driven");
     }
@@ -61,8 +59,6 @@ fn of_traits(system: &System<'_>) -> Vec<&'static str> {
     }
     if system.second {
         names.extend(["Hessian", "SecondOrder"]);
-        names.extend(of_displacement("DiscreteSecondOrder"));
-        names.extend(of_displacement("StartByInput").filter(|_| system.input.is_some()));
     }
     names.extend(rules.of_displacement.iter().map(|rule| rule.entry().name));
     names

@@ -1,7 +1,7 @@
 //! Traits implemented on request: derivatives by the input and by parameters, and second ones.
 
 use proc_macro2::TokenStream;
-use quote::{ToTokens, format_ident, quote};
+use quote::{ToTokens, quote};
 
 use super::super::model::{Home, System};
 use super::view::subject;
@@ -39,41 +39,7 @@ pub fn second_order(system: &System<'_>, functions: TokenStream) -> TokenStream 
     let scalar = &system.scalar;
     let (n, m) = (system.degrees.times(1), system.inputs());
     let subject = subject(system, system.home());
-    let terms: Vec<_> = system.parts().map(|part| format_ident!("{}_along", part.name())).collect();
-    let rules = system.rules.of_displacement.iter().map(|rule| rule.ident());
-    let discrete = rules.map(|rule| {
-        let p0_by_input = system.input.is_some().then(|| {
-            quote! {
-                #[automatically_derived]
-                impl StartByInput<#rule, #n, #m> for #subject {
-                    /// −∂f_d⁻/∂u.
-                    fn p0_by_input(&self, q0: &Vector, v: &Vector, h: #scalar) -> SMatrix<#scalar, #n, #m> {
-                        #rule::force_by_input(self, q0, v, h).p0
-                    }
-                }
-            }
-        });
-        quote! {
-            #[automatically_derived]
-            impl DiscreteSecondOrder<#rule, #n, #m> for #subject {
-                /// Second derivatives of `at_start`·p0 + `at_end`·p1 by q0, q1 and u.
-                fn momenta_along(
-                    &self,
-                    q0: &Vector,
-                    v: &Vector,
-                    h: #scalar,
-                    at_start: &Vector,
-                    at_end: &Vector,
-                ) -> Hessian<#scalar, #n, #m> {
-                    #(#rule::#terms(self, q0, v, h, [at_start, at_end]))+*
-                }
-            }
-
-            #p0_by_input
-        }
-    });
-    // What rules with interior points ask for besides.
-    let by_input = (system.rules.gauss && system.input.is_some()).then(|| {
+    let by_input = system.input.is_some().then(|| {
         quote! {
             #[inline]
             fn force_slope_by_input(&self, q: &Vector, v: &Vector) -> SMatrix<#scalar, #n, #m> {
@@ -87,7 +53,5 @@ pub fn second_order(system: &System<'_>, functions: TokenStream) -> TokenStream 
             #functions
             #by_input
         }
-
-        #(#discrete)*
     }
 }

@@ -118,8 +118,19 @@ pub(super) fn parameter(name: &str, is_used: bool) -> Ident {
     if is_used { format_ident!("{name}") } else { format_ident!("_{name}") }
 }
 
+/// `let Segment { q0, h, .. } = *segment;` for what a body reads of its segment.
+pub(super) fn of_segment(parameters: [(bool, &str); 3]) -> Option<TokenStream> {
+    let used: Vec<Ident> =
+        parameters.iter().filter(|(is_used, _)| *is_used).map(|(_, name)| format_ident!("{name}")).collect();
+    let rest = (used.len() < parameters.len()).then(|| quote!(..));
+    Some(match used.is_empty() {
+        true => quote!(let _ = segment;),
+        false => quote!(let Segment { #(#used,)* #rest } = *segment;),
+    })
+}
+
 /// `let _ = (q0, h);` for the parameters that a body does not read.
-pub(super) fn unused<const K: usize>(parameters: [(bool, &str); K]) -> Option<TokenStream> {
+pub(super) fn unused(parameters: [(bool, &str); 3]) -> Option<TokenStream> {
     let unused: Vec<Ident> =
         parameters.iter().filter(|(is_used, _)| !is_used).map(|(_, name)| format_ident!("{name}")).collect();
     (!unused.is_empty()).then(|| quote!(let _ = (#(#unused),*);))

@@ -49,7 +49,7 @@ impl Code<'_> {
             Points::Ends => self.trapezoidal(&parts),
         };
         let framed = |code: &Self, line: &StraightLine, result: TokenStream| match points {
-            Points::Middle => code.at_midpoint(line, &quote!(self.t), result),
+            Points::Middle => code.at_midpoint(line, &quote!(self.t), of_segment, result),
             Points::Ends => code.at_both_ends(line, result),
         };
 

@@ -107,6 +107,7 @@ impl Code<'_> {
         &self,
         line: &StraightLine,
         now: &TokenStream,
+        given: fn([(bool, &str); 3]) -> Option<TokenStream>,
         result: TokenStream,
     ) -> TokenStream {
         let uses_time = line.uses("t");
@@ -118,14 +119,14 @@ impl Code<'_> {
             let entries = index.map(|index| quote!(q0[#index] + half * v[#index]));
             quote!(let q = [#(#entries),*];)
         });
-        let unused = unused([
+        let given = given([
             (q.is_some(), "q0"),
             (q.is_some() || line.uses_velocities, "v"),
             (half.is_some() || line.uses("h"), "h"),
         ]);
         let statements = &line.statements;
         quote! {
-            #unused
+            #given
             #half
             #q
             #t

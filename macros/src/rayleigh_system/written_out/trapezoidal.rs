@@ -110,14 +110,14 @@ impl Code<'_> {
         });
         let t = line.uses("t").then(|| quote!(let t = self.t;));
         let t_end = line.uses("t_end").then(|| quote!(let t_end = self.t + h;));
-        let unused = unused([
+        let given = of_segment([
             (q1.is_some() || line.uses("q0"), "q0"),
             (q1.is_some() || line.uses_velocities, "v"),
             (q1.is_some() || half.is_some() || t_end.is_some() || line.uses("h"), "h"),
         ]);
         let statements = &line.statements;
         quote! {
-            #unused
+            #given
             #half
             #q1
             #t

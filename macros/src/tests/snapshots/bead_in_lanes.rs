@@ -23,7 +23,7 @@ const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
         ActingForce, Derivatives, Fused, Gradient, Lagrangian, Mask, MemberVector,
-        Members, Momenta, Rayleigh, StepKernel, Trapezoidal,
+        Members, Momenta, Rayleigh, Segment, StepKernel, Trapezoidal,
     };
     use ::dalembert::generated::Elementary as _;
     type Vector = SVector<f64, 1>;
@@ -177,9 +177,10 @@ const _: () = {
         type Memory = ::dalembert::generated::ExplicitMemory<f64, Self::Matrix, 1>;
         const LINEAR: bool = true;
         const WRITTEN_OUT: bool = true;
-        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
         #[inline]
-        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
+        fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let wall = Self::WALL;
             let k = self.k;
@@ -193,9 +194,10 @@ const _: () = {
                 matrix: SMatrix::from([[t2]]),
             }
         }
-        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
         #[inline]
-        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
+        fn momenta(&self, segment: &Segment<f64, 1>) -> Momenta<f64, 1> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let q1 = [q0[0] + h * v[0]];
             let t1 = self.has_wall;

@@ -24,7 +24,7 @@ const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
         ActingForce, Derivatives, Fused, Gradient, Lagrangian, Midpoint, Momenta,
-        StepKernel,
+        Segment, StepKernel,
     };
     type Vector = SVector<f64, 4>;
     impl ::dalembert::generated::PlainFields for Chain {
@@ -171,14 +171,13 @@ const _: () = {
         type Matrix = ::dalembert::generated::Banded<f64, 4, 3>;
         type Memory = ::dalembert::generated::KeptMatrix<f64, Self::Matrix, 4>;
         const WRITTEN_OUT: bool = true;
-        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
         #[inline]
         fn step_kernel(
             &self,
-            q0: &Vector,
-            v: &Vector,
-            h: f64,
+            segment: &Segment<f64, 4>,
         ) -> StepKernel<f64, 4, Self::Matrix> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let q = [
                 q0[0] + half * v[0],
@@ -227,9 +226,10 @@ const _: () = {
                 },
             }
         }
-        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
         #[inline]
-        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 4> {
+        fn momenta(&self, segment: &Segment<f64, 4>) -> Momenta<f64, 4> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let q = [
                 q0[0] + half * v[0],

@@ -46,7 +46,7 @@ const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
         ActingForce, CovectorDerivatives, Derivatives, Direction, DisplacementRule,
-        Driven, Force, Fused, Gradient, Lagrangian, Midpoint, Momenta, Rayleigh,
+        Driven, Force, Fused, Gradient, Lagrangian, Midpoint, Momenta, Rayleigh, Segment,
         StepKernel, Variations,
     };
     type Vector = SVector<f64, 1>;
@@ -336,9 +336,10 @@ const _: () = {
         type Matrix = SMatrix<f64, 1, 1>;
         type Memory = ::dalembert::generated::VelocityHistory<f64, 1>;
         const WRITTEN_OUT: bool = true;
-        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
         #[inline]
-        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
+        fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
             let t = self.t + half;
@@ -356,9 +357,10 @@ const _: () = {
                 matrix: SMatrix::from([[m + half * (c + half * (cos_q0 + t1 * sin_q0))]]),
             }
         }
-        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
         #[inline]
-        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
+        fn momenta(&self, segment: &Segment<f64, 1>) -> Momenta<f64, 1> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
             let t = self.t + half;
@@ -375,8 +377,8 @@ const _: () = {
         }
         /// Sizes of the terms that cancel in p0, at rest for instance.
         #[cold]
-        fn cancelling_terms(&self, q0: &Vector, v: &Vector, h: f64) -> Vector {
-            Midpoint::cancelling_terms(self, q0, v, h)
+        fn cancelling_terms(&self, segment: &Segment<f64, 1>) -> Vector {
+            Midpoint::cancelling_terms(self, segment)
         }
     }
     #[automatically_derived]

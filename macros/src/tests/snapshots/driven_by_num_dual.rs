@@ -93,7 +93,7 @@ const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
         ActingForce, CovectorDerivatives, Derivatives, Direction, DisplacementRule,
-        Driven, Force, Fused, Gradient, Lagrangian, Midpoint, Momenta, Rayleigh,
+        Driven, Force, Fused, Gradient, Lagrangian, Midpoint, Momenta, Rayleigh, Segment,
         StepKernel, Variations, dual,
     };
     type Vector = SVector<f64, 1>;
@@ -427,24 +427,24 @@ const _: () = {
     impl Fused<Midpoint, 1> for DrivenArm<'_> {
         type Matrix = SMatrix<f64, 1, 1>;
         type Memory = ::dalembert::generated::VelocityHistory<f64, 1>;
-        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
         #[inline]
-        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
-            Midpoint::lagrangian_kernel(self, q0, v, h)
-                + Midpoint::rayleigh_kernel(self, q0, v, h)
-                + Midpoint::force_kernel(self, q0, v, h)
+        fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {
+            Midpoint::lagrangian_kernel(self, segment)
+                + Midpoint::rayleigh_kernel(self, segment)
+                + Midpoint::force_kernel(self, segment)
         }
-        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
         #[inline]
-        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
-            Midpoint::lagrangian_momenta(self, q0, v, h)
-                + Midpoint::rayleigh_momenta(self, q0, v, h)
-                + Midpoint::force_momenta(self, q0, v, h)
+        fn momenta(&self, segment: &Segment<f64, 1>) -> Momenta<f64, 1> {
+            Midpoint::lagrangian_momenta(self, segment)
+                + Midpoint::rayleigh_momenta(self, segment)
+                + Midpoint::force_momenta(self, segment)
         }
         /// Sizes of the terms that cancel in p0, at rest for instance.
         #[cold]
-        fn cancelling_terms(&self, q0: &Vector, v: &Vector, h: f64) -> Vector {
-            Midpoint::cancelling_terms(self, q0, v, h)
+        fn cancelling_terms(&self, segment: &Segment<f64, 1>) -> Vector {
+            Midpoint::cancelling_terms(self, segment)
         }
     }
     #[automatically_derived]

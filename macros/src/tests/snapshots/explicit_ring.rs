@@ -19,7 +19,7 @@ const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
         ActingForce, Derivatives, Fused, Gradient, Lagrangian, Momenta, Rayleigh,
-        StepKernel, Trapezoidal,
+        Segment, StepKernel, Trapezoidal,
     };
     type Vector = SVector<f64, 2>;
     impl ::dalembert::generated::PlainFields for Ring {
@@ -161,14 +161,13 @@ const _: () = {
         type Memory = ::dalembert::generated::ExplicitMemory<f64, Self::Matrix, 2>;
         const LINEAR: bool = true;
         const WRITTEN_OUT: bool = true;
-        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
         #[inline]
         fn step_kernel(
             &self,
-            q0: &Vector,
-            v: &Vector,
-            h: f64,
+            segment: &Segment<f64, 2>,
         ) -> StepKernel<f64, 2, Self::Matrix> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let k = self.k;
             let s_start = q0[0] * q0[0] + q0[1] * q0[1];
@@ -185,9 +184,10 @@ const _: () = {
                 },
             }
         }
-        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
         #[inline]
-        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 2> {
+        fn momenta(&self, segment: &Segment<f64, 2>) -> Momenta<f64, 2> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let q1 = [q0[0] + h * v[0], q0[1] + h * v[1]];
             let s_start = q0[0] * q0[0] + q0[1] * q0[1];

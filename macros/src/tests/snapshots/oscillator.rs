@@ -25,7 +25,7 @@ const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
         ActingForce, Derivatives, Fused, Gradient, Lagrangian, Midpoint, Momenta,
-        Rayleigh, StepKernel, Trapezoidal,
+        Rayleigh, Segment, StepKernel, Trapezoidal,
     };
     type Vector = SVector<f64, 1>;
     impl ::dalembert::generated::PlainFields for Oscillator {
@@ -163,9 +163,10 @@ const _: () = {
         type Memory = ::dalembert::generated::KeptMatrix<f64, Self::Matrix, 1>;
         const LINEAR: bool = true;
         const WRITTEN_OUT: bool = true;
-        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
         #[inline]
-        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
+        fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
             let m = self.m;
@@ -176,9 +177,10 @@ const _: () = {
                 matrix: SMatrix::from([[m + half * (r + k * half)]]),
             }
         }
-        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
         #[inline]
-        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
+        fn momenta(&self, segment: &Segment<f64, 1>) -> Momenta<f64, 1> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
             let t1 = self.m * v[0];
@@ -195,9 +197,10 @@ const _: () = {
         type Memory = ::dalembert::generated::ExplicitMemory<f64, Self::Matrix, 1>;
         const LINEAR: bool = true;
         const WRITTEN_OUT: bool = true;
-        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
         #[inline]
-        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
+        fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let t1 = self.m + self.r * half;
             StepKernel {
@@ -205,9 +208,10 @@ const _: () = {
                 matrix: SMatrix::from([[t1]]),
             }
         }
-        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
         #[inline]
-        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
+        fn momenta(&self, segment: &Segment<f64, 1>) -> Momenta<f64, 1> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let q1 = [q0[0] + h * v[0]];
             let t1 = self.m * v[0];

@@ -22,7 +22,7 @@ const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
         ActingForce, Derivatives, Fused, Gradient, Lagrangian, Midpoint, Momenta,
-        StepKernel,
+        Segment, StepKernel,
     };
     use ::dalembert::generated::Elementary as _;
     type Vector = SVector<f64, 1>;
@@ -108,9 +108,10 @@ const _: () = {
         type Matrix = SMatrix<f64, 1, 1>;
         type Memory = ::dalembert::generated::VelocityHistory<f64, 1>;
         const WRITTEN_OUT: bool = true;
-        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
         #[inline]
-        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
+        fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
             let (sin_q0, cos_q0) = q[0].elementary().sin_cos();
@@ -120,9 +121,10 @@ const _: () = {
                 matrix: SMatrix::from([[1.0 + half * t1 * cos_q0]]),
             }
         }
-        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
         #[inline]
-        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
+        fn momenta(&self, segment: &Segment<f64, 1>) -> Momenta<f64, 1> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
             let t1 = self.g * half * q[0].elementary().sin();

@@ -19,7 +19,7 @@ const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
         ActingForce, Derivatives, Fused, Gradient, Lagrangian, Midpoint, Momenta,
-        Rayleigh, StepKernel,
+        Rayleigh, Segment, StepKernel,
     };
     type Vector = SVector<f64, 2>;
     impl ::dalembert::generated::PlainFields for Ring {
@@ -160,9 +160,10 @@ const _: () = {
         type Matrix = SMatrix<f64, 2, 2>;
         type Memory = ::dalembert::generated::VelocityHistory<f64, 2>;
         const WRITTEN_OUT: bool = true;
-        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
         #[inline]
-        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 2> {
+        fn step_kernel(&self, segment: &Segment<f64, 2>) -> StepKernel<f64, 2> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
             let s = q[0] * q[0] + q[1] * q[1];
@@ -189,9 +190,10 @@ const _: () = {
                 ]),
             }
         }
-        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
         #[inline]
-        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 2> {
+        fn momenta(&self, segment: &Segment<f64, 2>) -> Momenta<f64, 2> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
             let s = q[0] * q[0] + q[1] * q[1];

@@ -42,10 +42,9 @@ impl Joint {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        ActingForce, CovectorDerivatives, Derivatives, Direction, DiscreteSecondOrder,
-        DisplacementRule, Driven, Force, Fused, Gradient, GradientBy, Hessian,
-        Lagrangian, Midpoint, Momenta, Parameters, Rayleigh, SecondOrder, StartByInput,
-        StepKernel, Variations,
+        ActingForce, CovectorDerivatives, Derivatives, Direction, Driven, Force, Fused,
+        Gradient, GradientBy, Hessian, Lagrangian, Midpoint, Momenta, Parameters,
+        Rayleigh, SecondOrder, Segment, StepKernel, Variations,
     };
     type Vector = SVector<f64, 1>;
     impl ::dalembert::generated::PlainFields for Joint {
@@ -374,28 +373,9 @@ const _: () = {
                 duu: SMatrix::zeros(),
             }
         }
-    }
-    #[automatically_derived]
-    impl DiscreteSecondOrder<Midpoint, 1, 1> for DrivenJoint<'_> {
-        /// Second derivatives of `at_start`·p0 + `at_end`·p1 by q0, q1 and u.
-        fn momenta_along(
-            &self,
-            q0: &Vector,
-            v: &Vector,
-            h: f64,
-            at_start: &Vector,
-            at_end: &Vector,
-        ) -> Hessian<f64, 1, 1> {
-            Midpoint::lagrangian_along(self, q0, v, h, [at_start, at_end])
-                + Midpoint::rayleigh_along(self, q0, v, h, [at_start, at_end])
-                + Midpoint::force_along(self, q0, v, h, [at_start, at_end])
-        }
-    }
-    #[automatically_derived]
-    impl StartByInput<Midpoint, 1, 1> for DrivenJoint<'_> {
-        /// −∂f_d⁻/∂u.
-        fn p0_by_input(&self, q0: &Vector, v: &Vector, h: f64) -> SMatrix<f64, 1, 1> {
-            Midpoint::force_by_input(self, q0, v, h).p0
+        #[inline]
+        fn force_slope_by_input(&self, q: &Vector, v: &Vector) -> SMatrix<f64, 1, 1> {
+            self.force_by_input(q, v)
         }
     }
     #[automatically_derived]
@@ -403,9 +383,10 @@ const _: () = {
         type Matrix = SMatrix<f64, 1, 1>;
         type Memory = ::dalembert::generated::VelocityHistory<f64, 1>;
         const WRITTEN_OUT: bool = true;
-        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
         #[inline]
-        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
+        fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
             let u = self.u;
@@ -429,9 +410,10 @@ const _: () = {
                 ]),
             }
         }
-        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
         #[inline]
-        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
+        fn momenta(&self, segment: &Segment<f64, 1>) -> Momenta<f64, 1> {
+            let Segment { q0, v, h } = *segment;
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
             let u = self.u;

@@ -9,25 +9,26 @@
 //! ∂²(λ·(q1, p1)) = Σ_i D_iᵀ ∂²[μ_i·∂L/∂v + γ_i·G](Q_i, V_i, u) D_i,   D_i = ∂(Q_i, V_i, u)
 //! ```
 //!
-//! Third derivatives of L and R appear contracted alone. Between given ends D_i is that of the segment, and
-//! λ_q the covector that makes a·p0 + b·p1 stationary in p0.
+//! Third derivatives of L and R appear contracted alone.
 
 use core::array;
 
 use nalgebra::{SMatrix, SVector};
 
+use super::Gauss;
 use super::linearised::StageVector;
-use super::segment::Segment;
+use super::segment::SolvedSegment;
 use super::tangent::{ByState, Source, Tangent};
-use super::{Gauss, nan, solved_segment};
 use crate::numbers::{Hessian, Scalar};
-use crate::step::{DiscreteSecondOrder, StartByInput, State, Step, StepError, StepHessian};
+use crate::step::{DiscreteSecondOrder, State, StepError, StepHessian};
 use crate::system::{ForcedLagrangian, SecondOrder};
 
 /// ∂²[μ_i·∂L/∂v + γ_i·G] at each stage.
 type Curvatures<T, const N: usize, const M: usize, const S: usize> = [Hessian<T, N, M>; S];
 
-impl<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize> Segment<'_, L, N, S> {
+impl<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>
+    SolvedSegment<'_, L, N, S>
+{
     /// Of `covector`·(q1, p1).
     fn curvatures<const M: usize>(&self, covector: &State<T, N>) -> Curvatures<T, N, M, S>
     where
@@ -121,68 +122,16 @@ fn pulled_back<T: Scalar, const N: usize, const M: usize, const S: usize>(
     }
 }
 
-impl<T, L, const N: usize, const M: usize, const S: usize> StartByInput<Gauss<S>, N, M> for L
-where
-    T: Scalar,
-    L: ForcedLagrangian<N, Scalar = T> + SecondOrder<N, M>,
-{
-    /// NaN where the segment has no solution that Newton's method finds.
-    fn p0_by_input(&self, q0: &SVector<T, N>, v: &SVector<T, N>, h: T) -> SMatrix<T, N, M> {
-        let solved = Segment::<'_, L, N, S>::new(self, q0, v, h)
-            .and_then(|segment| Ok(-(segment.variations()?.p0_by_q1 * segment.by_held_input()?.end.q)));
-        solved.unwrap_or_else(|_| SMatrix::repeat(nan()))
-    }
-}
-
 impl<T, L, const N: usize, const M: usize, const S: usize> DiscreteSecondOrder<Gauss<S>, N, M> for L
 where
     T: Scalar,
     L: ForcedLagrangian<N, Scalar = T> + SecondOrder<N, M>,
 {
-    /// NaN where the segment has no solution that Newton's method finds.
-    fn momenta_along(
-        &self,
-        q0: &SVector<T, N>,
-        v: &SVector<T, N>,
-        h: T,
-        at_start: &SVector<T, N>,
-        at_end: &SVector<T, N>,
-    ) -> Hessian<T, N, M> {
-        let solved = Segment::<'_, L, N, S>::new(self, q0, v, h).and_then(|segment| {
-            let ends = segment.variations()?;
-            let ByState { p: by_p, .. } = segment.by_state()?;
-            let of_q1 = -ends.p0_by_q1.tr_mul(&(at_start + by_p.end.p.tr_mul(at_end)));
-            let by_input = segment.by_held_input()?;
-            let by_input = by_p.carried(&-(ends.p0_by_q1 * by_input.end.q), Some(&by_input));
-            let curvatures = segment.curvatures(&State { q: of_q1, p: *at_end });
-            Ok(pulled_back(&curvatures, &ends.minus, &ends.plus, &by_input))
-        });
-        solved.unwrap_or_else(|_| {
-            let (square, tall, corner) =
-                (SMatrix::repeat(nan()), SMatrix::repeat(nan()), SMatrix::repeat(nan()));
-            Hessian { d11: square, d12: square, d22: square, d1u: tall, d2u: tall, duu: corner }
-        })
-    }
-
     /// By q0 and p0 at once, from the stages.
-    fn step_hessian(
-        &self,
-        q0: &SVector<T, N>,
-        q1: &SVector<T, N>,
-        h: T,
+    fn hessian(
+        at: &SolvedSegment<'_, L, N, S>,
         covector: &State<T, N>,
     ) -> Result<StepHessian<T, N, M>, StepError> {
-        Segment::<'_, L, N, S>::between(self, q0, q1, h)?.hessian(covector)
-    }
-
-    fn step_with_hessian(
-        &self,
-        state: &State<T, N>,
-        h: T,
-        guess: Option<&SVector<T, N>>,
-        covector: &State<T, N>,
-    ) -> Result<(Step<T, N>, StepHessian<T, N, M>), StepError> {
-        let (step, segment) = solved_segment::<_, _, N, S>(self, state, h, guess)?;
-        Ok((step, segment.hessian(covector)?))
+        at.hessian(covector)
     }
 }

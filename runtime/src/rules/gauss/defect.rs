@@ -1,22 +1,17 @@
 //! The change of a vector field's momentum map over a segment, split into its causes at the stages.
 
-use nalgebra::SVector;
-
-use super::segment::Segment;
+use super::segment::SolvedSegment;
 use crate::numbers::{Scalar, lanes::lane};
-use crate::step::{Defect, Pairing, StepError};
+use crate::step::{Defect, DiscreteObjects, Pairing, StepError};
 use crate::system::{ForcedLagrangian, VectorField};
 
 /// h Σ bᵢ ξ(L), h Σ bᵢ f_L·ξ, and what J⁺ − J⁻ has besides; with the sizes of their terms.
 pub(super) fn at_the_stages<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
-    system: &L,
+    segment: &SolvedSegment<'_, L, N, S>,
     xi: &dyn VectorField<N, Scalar = T>,
-    (q0, q1): (&SVector<T, N>, &SVector<T, N>),
-    h: T,
 ) -> Result<(Defect<T>, Defect<T>), StepError> {
-    let segment = Segment::<'_, L, N, S>::new(system, q0, &((q1 - q0) / h), h)?;
     let variations = segment.variations()?;
-    let (xi0, xi1) = (xi.vector(q0), xi.vector(q1));
+    let (xi0, xi1) = (xi.vector(&segment.segment().q0), xi.vector(&segment.segment().end()));
     let force = segment.force(&variations);
     let ends = Pairing::zero()
         .and(&segment.slope(&variations.minus), &xi0)
@@ -51,7 +46,7 @@ pub(super) fn force_contraction<
     const N: usize,
     const S: usize,
 >(
-    segment: &Segment<'_, L, N, S>,
+    segment: &SolvedSegment<'_, L, N, S>,
     xi: &dyn VectorField<N, Scalar = T>,
     component: &mut dyn FnMut(T, T),
 ) {

@@ -18,21 +18,23 @@ use super::newton::Iterate;
 use super::problem::Problem;
 use super::rounding::{at_rounding, worst};
 use super::tangent::{ByState, Source, Tangent};
+use super::{defect, force};
 use crate::numbers::{
     Compensated, Derivatives, LaneVector, NewtonMatrix, Scalar, Singular, determinant_sign,
     lanes::{lane, splat},
 };
 use crate::step::{
-    DiscreteForce, DiscreteForceDerivatives, LegendreDerivatives, Momenta, Quantity, StepError,
-    newton::AT_FLOOR,
+    Defect, DiscreteForce, DiscreteForceDerivatives, DiscreteObjects, LegendreDerivatives, Momenta, Segment,
+    StepError, newton::AT_FLOOR,
 };
-use crate::system::ForcedLagrangian;
+use crate::system::{ForcedLagrangian, VectorField};
 
 /// Iterations of Newton's method for the interior points.
 const MAX_ITERATIONS: u32 = 100;
 
 /// A solved segment.
-pub(super) struct Segment<'a, L: ForcedLagrangian<N>, const N: usize, const S: usize> {
+pub struct SolvedSegment<'a, L: ForcedLagrangian<N>, const N: usize, const S: usize> {
+    segment: Segment<L::Scalar, N>,
     pub(super) problem: Problem<'a, L, N, S>,
     pub(super) v: LaneVector<L::Scalar, N, S>,
     pub(super) locals: [Local<L::Scalar, N>; S],
@@ -49,33 +51,18 @@ pub(super) struct Variations<T, const N: usize, const S: usize> {
     pub(super) p0_by_q1: SMatrix<T, N, N>,
 }
 
-impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize> Segment<'a, L, N, S> {
-    /// The segment from q0 to q1, with its arguments looked at.
-    pub(super) fn between(
-        system: &'a L,
-        q0: &SVector<T, N>,
-        q1: &SVector<T, N>,
-        h: T,
-    ) -> Result<Self, StepError> {
-        crate::step::require_step_size(h)?;
-        StepError::require_finite(q0, Quantity::Configuration)?;
-        StepError::require_finite(q1, Quantity::Configuration)?;
-        Self::new(system, q0, &((q1 - q0) / h), h)
-    }
-
-    /// The segment from q0 with the mean velocity v̄, by Newton's method.
-    pub(super) fn new(
-        system: &'a L,
-        q0: &SVector<T, N>,
-        mean: &SVector<T, N>,
-        h: T,
-    ) -> Result<Self, StepError> {
+impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>
+    SolvedSegment<'a, L, N, S>
+{
+    /// The stages of a segment, by Newton's method.
+    pub(super) fn new(system: &'a L, segment: &Segment<T, N>) -> Result<Self, StepError> {
+        let Segment { q0, v: mean, h } = segment;
         let one = T::one();
         let start = Compensated::new(*q0);
-        let mut problem = Problem::new(system, start, Compensated::new(nalgebra::zero()), h);
+        let mut problem = Problem::new(system, start, Compensated::new(nalgebra::zero()), *h);
         let guess = Iterate::new(&problem, splat(mean));
         // p0 such that the residuals, here ∂L/∂v − h Σ a_ij G_j, have the mean 0.
-        problem.p0.value = problem.sum(&guess.residual) / h;
+        problem.p0.value = problem.sum(&guess.residual) / *h;
         let mut last = Iterate::new(&problem, guess.v);
         let mut is_damped = false;
         for iteration in 0..MAX_ITERATIONS {
@@ -106,7 +93,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
                     }
                     problem.p0.value = p0;
                     if is_solved(&problem, &last) {
-                        return Self::at(problem, last).map_err(singular);
+                        return Self::at(segment, problem, last).map_err(singular);
                     }
                 }
                 share = crate::step::newton::shorter(share, before, size);
@@ -119,7 +106,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
             let has_stopped = share == one && (contraction > T::constant(0.1) || next.size == T::zero());
             last = next;
             if has_stopped && is_solved(&problem, &last) {
-                return Self::at(problem, last).map_err(singular);
+                return Self::at(segment, problem, last).map_err(singular);
             }
         }
         let (residual, floor) = worst(&last.residual, &last.floor);
@@ -132,11 +119,12 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
 
     /// The segment whose stages are those of an iterate.
     fn at(
+        segment: &Segment<T, N>,
         problem: Problem<'a, L, N, S>,
         Iterate { v, locals, .. }: Iterate<T, N, S>,
     ) -> Result<Self, Singular> {
         let factored = Factored::new(&problem, &locals)?;
-        Ok(Self { problem, v, locals, factored })
+        Ok(Self { segment: *segment, problem, v, locals, factored })
     }
 
     /// The step whose stages have the velocities `v`.
@@ -150,7 +138,8 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         }
         let factored = Factored::new(&problem, &locals)
             .map_err(|singular| StepError::SingularNewtonMatrix { iteration: 0, column: singular.column })?;
-        Ok(Self { problem, v, locals, factored })
+        let segment = Segment { q0: problem.q0.value, v: problem.sum(&v) / problem.h, h: problem.h };
+        Ok(Self { segment, problem, v, locals, factored })
     }
 
     /// How the step follows what `source` moves.
@@ -181,32 +170,10 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         self.factored.has_positive_determinant() == for_small_h
     }
 
-    /// p0 and p1.
-    pub(super) fn momenta(&self) -> Momenta<T, N> {
-        let p0 = self.problem.p0.value;
-        let change = self.weighted(|local| local.rate());
-        Momenta { p0, p1: p0 + change }
-    }
-
     /// h Σ b_i of a vector at each stage.
     fn weighted(&self, of: impl Fn(&Local<T, N>) -> SVector<T, N>) -> SVector<T, N> {
         let stages = self.locals.iter().zip(&self.problem.steps);
         stages.fold(SVector::zeros(), |sum, (local, &step)| sum + of(local) * step)
-    }
-
-    /// L_d = h Σ b_i L.
-    pub(super) fn lagrangian(&self) -> T {
-        let stages = self.locals.iter().zip(&self.problem.steps);
-        stages.fold(nalgebra::zero(), |sum: T, (local, &step)| sum + local.lagrangian * step)
-    }
-
-    /// Σ b_i E_L.
-    pub(super) fn energy(&self) -> T {
-        let sum = (0..S).fold(nalgebra::zero(), |sum: T, i| {
-            let local = &self.locals[i];
-            sum + (lane(&self.v, i).dot(&local.momentum) - local.lagrangian) * self.problem.steps[i]
-        });
-        sum / self.problem.h
     }
 
     /// How all stages and momenta follow q0 and q1.
@@ -216,13 +183,6 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         let p0_by_q0 = -(p0_by_q1 * by.q.end.q);
         let (minus, plus) = (by.p.carried(&p0_by_q0, Some(&by.q)), by.p.carried(&p0_by_q1, None));
         Ok(Variations { minus, plus, p0_by_q0, p0_by_q1 })
-    }
-
-    /// Both momenta with their derivatives by q0 and q1.
-    pub(super) fn legendre(&self) -> Result<LegendreDerivatives<T, N>, StepError> {
-        let Variations { minus, plus, p0_by_q0, p0_by_q1 } = self.variations()?;
-        let (p1_by_q0, p1_by_q1) = (minus.end.p, plus.end.p);
-        Ok(LegendreDerivatives { momenta: self.momenta(), p0_by_q0, p0_by_q1, p1_by_q0, p1_by_q1 })
     }
 
     /// h Σ b_i (∂L/∂q·DQ_i + ∂L/∂v·DV_i).
@@ -242,21 +202,73 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         };
         DiscreteForce { minus: along(&variations.minus), plus: along(&variations.plus) }
     }
+}
 
-    /// L_d with its derivatives, given those of f_d.
-    pub(super) fn lagrangian_derivatives(
-        &self,
-        variations: &Variations<T, N, S>,
-        force: &DiscreteForceDerivatives<T, N>,
-    ) -> Derivatives<T, N> {
-        Derivatives {
-            value: self.lagrangian(),
+impl<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize> DiscreteObjects<T, N>
+    for SolvedSegment<'_, L, N, S>
+{
+    fn segment(&self) -> &Segment<T, N> {
+        &self.segment
+    }
+
+    /// L_d = h Σ b_i L.
+    fn discrete_lagrangian(&self) -> T {
+        let stages = self.locals.iter().zip(&self.problem.steps);
+        stages.fold(nalgebra::zero(), |sum: T, (local, &step)| sum + local.lagrangian * step)
+    }
+
+    fn discrete_lagrangian_derivatives(&self) -> Result<Derivatives<T, N>, StepError> {
+        let (variations, force) = (self.variations()?, self.discrete_force_derivatives()?);
+        Ok(Derivatives {
+            value: self.discrete_lagrangian(),
             d1: self.slope(&variations.minus),
             d2: self.slope(&variations.plus),
             d11: -variations.p0_by_q0 - force.minus.d1,
             d12: -variations.p0_by_q1 - force.minus.d2,
             d22: variations.plus.end.p - force.plus.d2,
-        }
+        })
+    }
+
+    fn discrete_force(&self) -> Result<DiscreteForce<T, N>, StepError> {
+        if L::IS_FORCED { Ok(self.force(&self.variations()?)) } else { Ok(DiscreteForce::zero()) }
+    }
+
+    fn discrete_force_derivatives(&self) -> Result<DiscreteForceDerivatives<T, N>, StepError> {
+        force::derivatives(self)
+    }
+
+    fn momenta(&self) -> Momenta<T, N> {
+        let p0 = self.problem.p0.value;
+        let change = self.weighted(|local| local.rate());
+        Momenta { p0, p1: p0 + change }
+    }
+
+    /// Σ b_i E_L(Q_i, V_i).
+    fn energy(&self) -> T {
+        let sum = (0..S).fold(nalgebra::zero(), |sum: T, i| {
+            let local = &self.locals[i];
+            sum + (lane(&self.v, i).dot(&local.momentum) - local.lagrangian) * self.problem.steps[i]
+        });
+        sum / self.problem.h
+    }
+
+    fn legendre_derivatives(&self) -> Result<LegendreDerivatives<T, N>, StepError> {
+        let Variations { minus, plus, p0_by_q0, p0_by_q1 } = self.variations()?;
+        let (p1_by_q0, p1_by_q1) = (minus.end.p, plus.end.p);
+        Ok(LegendreDerivatives { momenta: self.momenta(), p0_by_q0, p0_by_q1, p1_by_q0, p1_by_q1 })
+    }
+
+    fn defect(&self, xi: &dyn VectorField<N, Scalar = T>) -> Result<(Defect<T>, Defect<T>), StepError> {
+        defect::at_the_stages(self, xi)
+    }
+
+    fn force_contraction(
+        &self,
+        xi: &dyn VectorField<N, Scalar = T>,
+        component: &mut dyn FnMut(T, T),
+    ) -> Result<(), StepError> {
+        defect::force_contraction(self, xi, component);
+        Ok(())
     }
 }
 

@@ -1,16 +1,11 @@
 //! The step of a run, its equations linearised at the stages that were solved for.
 
 use super::problem::Problem;
-use super::segment::Segment;
+use super::segment::SolvedSegment;
 use super::{Gauss, StageHistory};
 use crate::numbers::{Compensated, Scalar};
-use crate::step::{
-    DiscreteDriven, DiscreteParameters, Linearizable, PhaseMatrix, State, StateBy, Step, StepError,
-};
+use crate::step::{Linearizable, PhaseMatrix, State, Step, StepError};
 use crate::system::ForcedLagrangian;
-
-/// The equations of a step's stages, linearised and factored.
-pub struct LinearizedStages<'a, L: ForcedLagrangian<N>, const N: usize, const S: usize>(Segment<'a, L, N, S>);
 
 impl<T, L, const N: usize, const S: usize> Linearizable<Gauss<S>, N> for L
 where
@@ -18,7 +13,7 @@ where
     L: ForcedLagrangian<N, Scalar = T>,
 {
     type Linearized<'a>
-        = LinearizedStages<'a, L, N, S>
+        = SolvedSegment<'a, L, N, S>
     where
         L: 'a;
 
@@ -28,28 +23,19 @@ where
         state: &State<T, N>,
         _: &Step<T, N>,
         h: T,
-    ) -> Result<LinearizedStages<'a, L, N, S>, StepError> {
+    ) -> Result<SolvedSegment<'a, L, N, S>, StepError> {
         let (q0, p0) = (Compensated::new(state.q), Compensated::new(state.p));
-        Segment::of_stages(Problem::new(self, q0, p0, h), memory.v).map(LinearizedStages)
+        SolvedSegment::of_stages(Problem::new(self, q0, p0, h), memory.v)
     }
 
-    fn by_state(at: &LinearizedStages<'_, L, N, S>) -> Result<PhaseMatrix<T, N>, StepError> {
-        Ok(at.0.by_state()?.matrix())
-    }
-
-    fn by_input<const U: usize>(at: &LinearizedStages<'_, L, N, S>) -> Result<StateBy<T, N, U>, StepError>
+    fn linearized_on<'a>(on: SolvedSegment<'a, L, N, S>) -> Result<SolvedSegment<'a, L, N, S>, StepError>
     where
-        L: DiscreteDriven<Gauss<S>, N, U>,
+        L: 'a,
     {
-        Ok(at.0.by_input()?.end)
+        Ok(on)
     }
 
-    fn by_parameters<const P: usize>(
-        at: &LinearizedStages<'_, L, N, S>,
-    ) -> Result<StateBy<T, N, P>, StepError>
-    where
-        L: DiscreteParameters<Gauss<S>, N, P>,
-    {
-        Ok(at.0.by_parameters()?.end)
+    fn by_state(at: &SolvedSegment<'_, L, N, S>) -> Result<PhaseMatrix<T, N>, StepError> {
+        Ok(at.by_state()?.matrix())
     }
 }

@@ -122,7 +122,7 @@ impl<S: Scalar, const N: usize> Event<S, N> {
         L: Flow<M, N> + ActingForce<N, Scalar = S>,
     {
         let mean = (self.state.q - self.from.q) / self.elapsed;
-        let (_, step) = by.system().later(S::constant(self.from_time - self.since), |system| {
+        let (_, a) = by.system().later(S::constant(self.from_time - self.since), |system| {
             Flow::<M, N>::linearized_step(system, &self.from, self.elapsed, Some(&mean))
         })?;
         let (q, v) = (&self.state.q, &self.velocity);
@@ -134,7 +134,6 @@ impl<S: Scalar, const N: usize> Event<S, N> {
         if !inverse.is_finite() {
             return Err(EventError::Tangent { index: self.index, time: self.time });
         }
-        let a = step.a;
         let time_by_q = (a.q_by_q.tr_mul(&g.q) + a.p_by_q.tr_mul(&g.p)) * -inverse;
         let time_by_p = (a.q_by_p.tr_mul(&g.q) + a.p_by_p.tr_mul(&g.p)) * -inverse;
         Ok(EventDerivatives {

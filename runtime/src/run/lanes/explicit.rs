@@ -48,7 +48,7 @@ struct Substep<T, A, const N: usize, const W: usize> {
 type Of<L, const N: usize, const S: usize, const W: usize> = ExplicitSteps<
     <L as crate::system::Lagrangian<N>>::Scalar,
     <L as ExplicitInLanes<N>>::Fields<W>,
-    <<L as crate::step::Discrete<Trapezoidal, N>>::Matrix as NewtonMatrix<
+    <<L as crate::step::Fused<Trapezoidal, N>>::Matrix as NewtonMatrix<
         <L as crate::system::Lagrangian<N>>::Scalar,
         N,
     >>::OfMembers<W>,

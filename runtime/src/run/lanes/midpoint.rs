@@ -15,7 +15,7 @@ use crate::run::memory::in_lanes::{by_kept_matrices, by_linear_matrices};
 use crate::run::{InLanes, LaneRuns};
 use crate::step::in_lanes::clocks::Clocks;
 use crate::step::in_lanes::newton::{MatricesOf, Roots, quick_in_lanes};
-use crate::step::{Discrete, DiscreteInLanes, Memory, MemoryInLanes, State, VelocityHistory};
+use crate::step::{DiscreteInLanes, Fused, Memory, MemoryInLanes, State, VelocityHistory};
 use crate::system::Lagrangian;
 
 /// W members on their way by steps that are solved for v̄.
@@ -45,7 +45,7 @@ pub struct StepsInLanes<T, F, M, A, const N: usize, const W: usize> {
 type Of<L, const N: usize, const W: usize> = StepsInLanes<
     <L as Lagrangian<N>>::Scalar,
     <L as DiscreteInLanes<Midpoint, N>>::Fields<W>,
-    <L as Discrete<Midpoint, N>>::Memory,
+    <L as Fused<Midpoint, N>>::Memory,
     MatricesOf<L, Midpoint, N, W>,
     N,
     W,

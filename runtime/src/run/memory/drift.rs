@@ -7,7 +7,9 @@ use nalgebra::{SMatrix, SVector};
 use super::explicit::Prepared;
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::rules::{ByDrift, DampedDrift, Fitted, FittedTrapezoidal};
-use crate::step::{Discrete, Memory, Momenta, State, Step, StepError, VelocityHistory, or_without_guess};
+use crate::step::{
+    ClosedForm, Discrete, Memory, Momenta, Segment, State, Step, StepError, VelocityHistory, or_without_guess,
+};
 use crate::system::Rayleigh;
 
 /// The functions of Z that [`Fitted`] asks for, and the latest mean velocities. It belongs to one system.
@@ -26,7 +28,7 @@ impl<S: Scalar, const N: usize> Default for DriftMemory<S, N> {
 
 impl<L, const N: usize> Memory<L, Fitted, N> for DriftMemory<L::Scalar, N>
 where
-    L: Discrete<Fitted, N> + Rayleigh<N> + ?Sized,
+    L: ClosedForm<Fitted, N> + Rayleigh<N> + ?Sized,
 {
     #[inline]
     fn advance(
@@ -84,7 +86,7 @@ where
 
 impl<L, const N: usize> Memory<L, FittedTrapezoidal, N> for ExplicitDriftMemory<L::Scalar, N>
 where
-    L: Discrete<FittedTrapezoidal, N> + Rayleigh<N> + ?Sized,
+    L: ClosedForm<FittedTrapezoidal, N> + Rayleigh<N> + ?Sized,
 {
     #[inline]
     fn advance(
@@ -105,7 +107,7 @@ where
             )
         {
             if cfg!(debug_assertions) {
-                system.verify_segment(&state.q, &step.velocity, h)?;
+                system.verify_segment(&Segment { q0: state.q, v: step.velocity, h })?;
             }
             self.force = Some((step.state.q, force));
             return Ok(step);
@@ -120,7 +122,7 @@ impl<S: Scalar, const N: usize> ExplicitDriftMemory<S, N> {
     #[inline(never)]
     fn start<L>(&mut self, system: &L, state: &State<S, N>, h: S) -> Result<Step<S, N>, StepError>
     where
-        L: Discrete<FittedTrapezoidal, N> + Rayleigh<N, Scalar = S> + ?Sized,
+        L: ClosedForm<FittedTrapezoidal, N> + Rayleigh<N, Scalar = S> + ?Sized,
     {
         let (is_kept, drift) = match self.kept {
             Some((prepared, drift)) if prepared.h == h => (true, drift),

@@ -13,7 +13,7 @@ use nalgebra::SVector;
 use crate::numbers::{Factored, NewtonMatrix, Scalar};
 use crate::rules::Trapezoidal;
 use crate::step::{
-    Discrete, Flow, Memory, Momenta, Report, State, Step, StepError,
+    ClosedForm, Discrete, Flow, Memory, Momenta, Report, Segment, State, Step, StepError,
     newton::{estimated_floor, held_against},
     verify_momenta,
 };
@@ -26,7 +26,9 @@ use crate::system::{ActingForce, GeneratedDiffers};
     label = "the equations of `{Self}` are not known to be explicit",
     note = "list the rule, `#[rayleigh_system(rule = trapezoidal)]`; L has to be ½vᵀMv − V(q, t) with constant M, R quadratic in v with constant coefficients, a force a function of q and t alone, and their derivatives written out: `derivatives = expanded` says what is in the way"
 )]
-pub trait Explicit<const N: usize>: Discrete<Trapezoidal, N> + ActingForce<N> {
+pub trait Explicit<const N: usize>:
+    ClosedForm<Trapezoidal, N> + Discrete<Trapezoidal, N> + ActingForce<N>
+{
     /// P = ∂²L/∂v² + (h/2) ∂²R/∂v², the Newton matrix.
     fn step_matrix(&self, h: Self::Scalar) -> Self::Matrix;
 
@@ -43,7 +45,7 @@ pub(in crate::run) fn verify_explicit<L: Explicit<N>, const N: usize>(
     state: &State<L::Scalar, N>,
     h: L::Scalar,
 ) -> Result<(), GeneratedDiffers> {
-    verify_momenta::<L, Trapezoidal, N>(system, state, h, &|q0, v| {
+    verify_momenta::<L, Trapezoidal, N>(system, state, h, &|Segment { q0, v, .. }| {
         let (mut momenta, mut q1) = (system.velocity_momenta(v, h), *q0);
         for i in 0..N {
             q1[i] += h * v[i];
@@ -111,7 +113,7 @@ where
             )
         {
             if cfg!(debug_assertions) {
-                system.verify_segment(&state.q, &step.velocity, h)?;
+                system.verify_segment(&Segment { q0: state.q, v: step.velocity, h })?;
             }
             self.force = Some((step.state.q, force));
             self.is_another = false;

@@ -12,7 +12,8 @@ use nalgebra::SVector;
 
 use crate::numbers::{Factored, NewtonMatrix, Scalar};
 use crate::step::{
-    Discrete, KeptOf, Memory, MemoryInLanes, Momenta, Report, State, Step, StepError, VelocityHistory,
+    ClosedForm, Discrete, Fused, KeptOf, Memory, MemoryInLanes, Momenta, Report, Segment, State, Step,
+    StepError, VelocityHistory,
     newton::{
         AT_FLOOR, add_finite_part, estimated_floor, held_against, held_by_weights, is_sensible,
         is_small_beside, weighted,
@@ -74,7 +75,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Default for KeptMatrix<S,
 
 impl<L, R, const N: usize> Memory<L, R, N> for KeptMatrix<L::Scalar, L::Matrix, N>
 where
-    L: Discrete<R, N>,
+    L: ClosedForm<R, N> + Discrete<R, N>,
 {
     #[inline]
     fn advance(
@@ -100,7 +101,7 @@ where
             });
             if let Some(step) = step {
                 if cfg!(debug_assertions) {
-                    system.verify_segment(&state.q, &step.velocity, h)?;
+                    system.verify_segment(&Segment { q0: state.q, v: step.velocity, h })?;
                 }
                 self.history.push(step.velocity, h);
                 self.served = self.served.saturating_add(1);
@@ -132,7 +133,7 @@ where
 
 impl<L, R, const N: usize> MemoryInLanes<L, R, N> for KeptMatrix<L::Scalar, L::Matrix, N>
 where
-    L: Discrete<R, N>,
+    L: ClosedForm<R, N> + Discrete<R, N>,
 {
     const KEEPS: bool = true;
 
@@ -176,7 +177,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> KeptMatrix<S, M, N> {
     #[inline(never)]
     fn renew<L, R>(&mut self, system: &L, state: &State<S, N>, velocity: &SVector<S, N>, h: S)
     where
-        L: Discrete<R, N, Scalar = S, Matrix = M>,
+        L: Fused<R, N, Scalar = S, Matrix = M>,
     {
         if !L::LINEAR && self.kept.as_ref().is_some_and(|kept| kept.h == h) {
             let [shortest, longest] = PAUSES;
@@ -188,7 +189,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> KeptMatrix<S, M, N> {
             self.next_pause = shortest;
         }
         self.served = 0;
-        let matrix = system.step_kernel(&state.q, velocity, h).matrix;
+        let matrix = system.step_kernel(&Segment { q0: state.q, v: *velocity, h }).matrix;
         self.kept = matrix.factored().map(|factored| Kept { h, matrix, factored });
     }
 }
@@ -199,7 +200,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
     #[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a size that is NaN must fail the comparison")]
     fn step<L, R>(&self, system: &L, state: &State<S, N>, guess: SVector<S, N>) -> Option<Step<S, N>>
     where
-        L: Discrete<R, N, Scalar = S, Matrix = M>,
+        L: Fused<R, N, Scalar = S, Matrix = M>,
     {
         let State { q, p } = state;
         let floor = estimated_floor(p, &self.matrix, &guess);
@@ -209,7 +210,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         let mut last_size = S::constant(CLOSE) / (S::EPSILON * S::constant(CONTRACTION));
         // At least one correction: extrapolation alone, step after step, would let rounding grow.
         for iterations in 0..=MOST {
-            let momenta = system.momenta(q, &v, self.h);
+            let momenta = system.momenta(&Segment { q0: *q, v, h: self.h });
             let residual = momenta.p0 - p;
             let size = weighted(&residual, &weights);
             if iterations > 0 && size <= S::constant(AT_FLOOR) {
@@ -248,9 +249,9 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         residual: SVector<S, N>,
     ) -> Option<(S, S)>
     where
-        L: Discrete<R, N, Scalar = S, Matrix = M>,
+        L: Fused<R, N, Scalar = S, Matrix = M>,
     {
-        let floor = estimated_floor(p, &system.step_kernel(q, &v, self.h).matrix, &v);
+        let floor = estimated_floor(p, &system.step_kernel(&Segment { q0: *q, v, h: self.h }).matrix, &v);
         let (residual, floor, is_root) = held_against(&residual, &floor);
         is_root.then_some((residual, floor))
     }
@@ -277,10 +278,10 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         (iterations, correction): (u32, SVector<S, N>),
     ) -> Option<Step<S, N>>
     where
-        L: Discrete<R, N, Scalar = S, Matrix = M>,
+        L: Fused<R, N, Scalar = S, Matrix = M>,
     {
         let State { q, p } = state;
-        let matrix = |h| system.step_kernel(q, &v, h).matrix;
+        let matrix = |h| system.step_kernel(&Segment { q0: *q, v, h }).matrix;
         // 2E.
         let (now, mass) = (matrix(self.h), matrix(S::zero()));
         let even = now.plus(&matrix(-self.h), S::one()).plus(&mass, -S::constant(2.0));
@@ -304,7 +305,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
     #[inline]
     fn linear_step<L, R>(&self, system: &L, state: &State<S, N>, guess: SVector<S, N>) -> Option<Step<S, N>>
     where
-        L: Discrete<R, N, Scalar = S, Matrix = M>,
+        L: Fused<R, N, Scalar = S, Matrix = M>,
     {
         let State { q, p } = state;
         let mut v = guess;
@@ -313,11 +314,11 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         // The factors' rounding is the same at every step, and so is its share of a correction: a drift,
         // unless corrections are small.
         while iterations == 0 || iterations == 1 && correction.amax() > v.amax() * S::constant(SMALL) {
-            correction = self.factored.solve(&(system.momenta(q, &v, self.h).p0 - p));
+            correction = self.factored.solve(&(system.momenta(&Segment { q0: *q, v, h: self.h }).p0 - p));
             v -= correction;
             iterations += 1;
         }
-        let momenta = system.momenta(q, &v, self.h);
+        let momenta = system.momenta(&Segment { q0: *q, v, h: self.h });
         let floor = estimated_floor(p, &self.matrix, &v);
         let (residual, floor, is_root) = held_against(&(momenta.p0 - p), &floor);
         if !is_root {

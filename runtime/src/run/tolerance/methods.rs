@@ -7,7 +7,7 @@ use crate::rules::{Fitted, FittedTrapezoidal, Gauss, Midpoint, SelfAdjoint, Solv
 use crate::run::between::beginning;
 use crate::run::{Composition, Explicit, Splitting};
 use crate::step::flow::velocity;
-use crate::step::{Discrete, Flow, Memory, State, Step, StepError};
+use crate::step::{Flow, Fused, Memory, State, Step, StepError};
 use crate::system::{ActingForce, ForcedLagrangian, Lagrangian};
 
 /// The methods that a system offers to [`Method::for_tolerance`]: a rule of order 2 stands for itself and its
@@ -123,7 +123,7 @@ pub struct WithGauss<M>(pub M);
 
 /// A step by a rule, alone or composed.
 #[allow(clippy::large_enum_variant, reason = "no allocator")]
-pub enum Composed<L: Discrete<R, N>, R: SelfAdjoint, const N: usize> {
+pub enum Composed<L: Fused<R, N> + Flow<R, N>, R: SelfAdjoint, const N: usize> {
     /// The rule alone.
     Rule(OfSize<L, R, N>),
     /// Order 6.
@@ -205,7 +205,7 @@ impl<L: Flow<M, N>, M, const N: usize> LastStep<L, N> for OfSize<L, M, N> {
 /// The cost of an iteration in a substep of a rule, in evaluations: the matrix, and the solution with it.
 const ITERATION: f64 = 3.0;
 
-impl<L: Discrete<R, N>, R: SelfAdjoint, const N: usize> MethodStep<L, N> for Composed<L, R, N> {
+impl<L: Fused<R, N> + Flow<R, N>, R: SelfAdjoint, const N: usize> MethodStep<L, N> for Composed<L, R, N> {
     #[inline]
     fn advance(
         &mut self,
@@ -248,7 +248,7 @@ impl<L: Discrete<R, N>, R: SelfAdjoint, const N: usize> MethodStep<L, N> for Com
 
 macro_rules! rules {
     ($($rule:ident)*) => {$(
-        impl<L: Discrete<$rule, N> + ActingForce<N>, const N: usize> Methods<L, N> for $rule {
+        impl<L: Fused<$rule, N> + Flow<$rule, N> + ActingForce<N>, const N: usize> Methods<L, N> for $rule {
             type Step = Composed<L, Self, N>;
 
             fn offers(method: Method) -> bool {

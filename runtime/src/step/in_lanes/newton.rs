@@ -5,7 +5,7 @@
 use crate::numbers::members::{difference, each_coordinate};
 use crate::numbers::{Mask, MatricesOfMembers, MemberVector, Members, NewtonMatrix, Scalar};
 use crate::step::newton::{AT_FLOOR, QUICK_ITERATIONS, SLOW, SMALL};
-use crate::step::{Discrete, DiscreteInLanes};
+use crate::step::{DiscreteInLanes, Fused};
 use crate::system::Lagrangian;
 
 /// The roots of the members that are solved, and both momenta there.
@@ -41,7 +41,7 @@ impl<T: Scalar, const N: usize, const W: usize> Roots<T, N, W> {
 
 /// The matrices of W members by the rule.
 pub(crate) type MatricesOf<L, R, const N: usize, const W: usize> =
-    <<L as Discrete<R, N>>::Matrix as NewtonMatrix<<L as Lagrangian<N>>::Scalar, N>>::OfMembers<W>;
+    <<L as Fused<R, N>>::Matrix as NewtonMatrix<<L as Lagrangian<N>>::Scalar, N>>::OfMembers<W>;
 
 /// [`quick`](crate::step::newton::quick) of each of `whose`: it leaves those unsolved that quick leaves, and
 /// some with numbers near overflow.

@@ -3,10 +3,11 @@
 use nalgebra::SVector;
 
 use super::rounding::{estimated_floor, held_against};
-use super::{Equation, Solution, is_known_at, is_small_beside, largest};
+use super::{Solution, is_known_at, is_small_beside, largest};
 use crate::numbers::{NewtonMatrix, Scalar, Singular, nonlinear::in_units_of};
 use crate::step::cause::explained;
-use crate::step::{Momenta, Report, State, StepError, StepKernel};
+use crate::step::equation::StepEquation;
+use crate::step::{Report, Segment, State, StepError};
 use crate::system::Quantity;
 
 /// The best iterate of at most `bound` undamped Newton iterations, and whether it is the solution, by the
@@ -14,21 +15,18 @@ use crate::system::Quantity;
 ///
 /// The work is bounded: `bound` evaluations of the kernel, as many solves, and `bound` + 1 evaluations of the
 /// momenta.
-pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
-    kind: Equation,
+pub(crate) fn bounded<S: Scalar, const N: usize>(
+    equation: &impl StepEquation<S, N>,
     bound: u32,
-    (evaluate, finish, cause): (
-        impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
-        impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
-        impl Fn(&SVector<S, N>, &SVector<S, N>) -> Option<StepError>,
-    ),
     State { q, p }: &State<S, N>,
+    h: S,
     guess: SVector<S, N>,
 ) -> Result<(Solution<S, N>, bool), StepError> {
+    let at = |v: &SVector<S, N>| Segment { q0: *q, v: *v, h };
     let mut v = guess;
     let mut best: Option<(S, Solution<S, N>, bool)> = None;
     for iteration in 0..bound.max(1) {
-        let kernel = evaluate(q, &v);
+        let kernel = equation.kernel(&at(&v));
         let residual = kernel.p0 - p;
         let correction = match kernel.matrix.solve(&residual) {
             Ok(correction) => correction,
@@ -39,11 +37,11 @@ pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
                     Some(index) => StepError::NonFinite { quantity: Quantity::Derivatives, index },
                     None => StepError::SingularNewtonMatrix { iteration, column },
                 };
-                return Err(explained(error, &|| cause(q, &v)));
+                return Err(explained(error, &|| equation.cause(&at(&v))));
             }
         };
         let next = v - correction;
-        let momenta = finish(q, &next);
+        let momenta = equation.momenta(&at(&next));
         let remaining = momenta.p0 - p;
         let floor = estimated_floor(p, &kernel.matrix, &next);
         let size = in_units_of(remaining.as_slice(), floor.as_slice());
@@ -53,11 +51,12 @@ pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
                 .or_else(|| (0..N).find(|&i| !remaining[i].is_finite()))
                 .unwrap_or(0);
             let error = StepError::NonFinite { quantity: Quantity::Derivatives, index };
-            return Err(explained(error, &|| cause(q, &v).or_else(|| cause(q, &next))));
+            return Err(explained(error, &|| equation.cause(&at(&v)).or_else(|| equation.cause(&at(&next)))));
         }
         let (residual, floor, is_root) = held_against(&remaining, &floor);
         let last_correction = largest(correction.as_slice());
-        let is_solved = is_root && (is_small_beside(&remaining, p) || is_known_at(kind, &next, &correction));
+        let is_solved =
+            is_root && (is_small_beside(&remaining, p) || is_known_at(equation.kind(), &next, &correction));
         if is_solved || best.as_ref().is_none_or(|(least, ..)| size < *least) {
             let report = Report { iterations: iteration + 1, damped: 0, residual, floor, last_correction };
             best = Some((size, Solution { unknown: next, momenta, report }, is_solved));

@@ -17,7 +17,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::{Exact, ExactError, ExactSegment};
 use crate::numbers::CovectorDerivatives;
-use crate::step::Discrete;
+use crate::step::{Discrete, Discretised};
 use crate::system::ActingForce;
 use crate::theory::verdict::largest;
 
@@ -137,11 +137,10 @@ where
     {
         let q1 = q0 + v * h;
         let exact = self.segment_near(*q0, q1, h, *v)?;
-        let system = self.system();
-        // The mean velocity of these very ends: q1 is rounded.
-        let mean = (q1 - q0) / h;
-        let (force, momenta) = (system.discrete_force(q0, &q1, h), system.momenta(q0, &mean, h));
-        let lagrangian = system.discrete_lagrangian(q0, &q1, h);
+        let by = Discretised::<L, R, N>::new(self.system(), h);
+        // By these very ends: q1 is rounded.
+        let (mean, objects) = ((q1 - q0) / h, by.objects(q0, &q1));
+        let (force, momenta, lagrangian) = (objects.force(), objects.momenta(), objects.lagrangian());
         // The largest entry, NaN if one is.
         let size = |vector: &SVector<f64, N>| largest(vector.iter().copied());
         if !largest([lagrangian, size(&force.minus), size(&force.plus), size(&momenta.p0), size(&momenta.p1)])

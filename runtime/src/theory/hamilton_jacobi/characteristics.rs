@@ -8,7 +8,7 @@ use super::caustics::TangentPlane;
 use super::residual::{Outcome, Worst, line, tolerance_line};
 use super::{Caustic, Frame, HamiltonJacobi, HamiltonJacobiError, ImplicitEquation, Section};
 use crate::numbers::Scalar;
-use crate::step::{Discrete, Linearization, PhaseMatrix, Quantity, State, StepError, or_without_guess};
+use crate::step::{Discrete, PhaseMatrix, Quantity, State, StepError, or_without_guess};
 
 /// One characteristic: the trajectory of (x, γ_0(x)), with the tangent frame along it.
 #[derive(Clone, Debug, PartialEq)]
@@ -138,9 +138,8 @@ where
                 .map_err(ImplicitEquation::Step.at(k))?;
                 Ok::<_, HamiltonJacobiError>((step, theory.legendre(&state.q, &step.state.q)))
             })??;
-            let linearization =
-                Linearization::from_legendre(&legendre).map_err(ImplicitEquation::Derivative.at(k))?;
-            carried.advance(&linearization.a, step.state)?;
+            let a = legendre.step_matrix().map_err(ImplicitEquation::Derivative.at(k))?;
+            carried.advance(&a, step.state)?;
             guess = Some(step.velocity);
         }
         Ok(carried.characteristic)
@@ -190,8 +189,8 @@ where
         let [from, to] = [&characteristic.states[k], &characteristic.states[k + 1]];
         let [before, after] = [&characteristic.frames[k], &characteristic.frames[k + 1]];
         let (f, legendre) = self.at_step(k, |theory| {
-            let f = theory.by.system.discrete_force_derivatives(&from.q, &to.q, self.by.h);
-            (f, theory.legendre(&from.q, &to.q))
+            let objects = theory.by.objects(&from.q, &to.q);
+            (objects.force_derivatives(), objects.legendre())
         })?;
         let work = before.q.tr_mul(&(f.minus.d1 * before.q + f.minus.d2 * after.q))
             + after.q.tr_mul(&(f.plus.d1 * before.q + f.plus.d2 * after.q));

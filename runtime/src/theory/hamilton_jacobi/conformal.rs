@@ -174,8 +174,8 @@ where
                 let share = S::constant(share);
                 let from = State { q: q + across * share, p: p + up * share };
                 match by.linearized_step(&from) {
-                    Ok((step, linear)) => {
-                        let moved = linear.a.q_by_q * across + linear.a.q_by_p * up;
+                    Ok((step, a)) => {
+                        let moved = a.q_by_q * across + a.q_by_p * up;
                         let start = from.p * S::constant(self.factor());
                         let value = (step.state.p.dot(&moved) - start.dot(&across)).widen();
                         let terms = step.state.p.abs().dot(&moved.abs()) + start.abs().dot(&across.abs());
@@ -315,13 +315,13 @@ where
         k: usize,
         state: &State<S, N>,
     ) -> Result<(State<S, N>, PhaseMatrix<S, N>), HamiltonJacobiError> {
-        let (step, linear) =
+        let (step, a) =
             at_segment(&self.by, k, |by| by.linearized_step(state))?.map_err(ImplicitEquation::Step.at(k))?;
-        match ConformalStep::held_against(self.factor(), &[linear.a], None) {
+        match ConformalStep::held_against(self.factor(), &[a], None) {
             Some(report) if !report.is_conformal() => {
                 Err(HamiltonJacobiError::NotConformal { step: Some(k), report })
             }
-            _ => Ok((step.state, linear.a)),
+            _ => Ok((step.state, a)),
         }
     }
 

@@ -158,8 +158,8 @@ where
     ) {
         let zero = SVector::zeros();
         let v = self.mean_velocity(q0, q1);
-        let k = self.legendre(q0, q1);
-        let f = self.by.system.discrete_force(q0, q1, self.by.h);
+        let objects = self.by.objects(q0, q1);
+        let (k, f) = (objects.legendre(), objects.force());
         let size = MomentumMagnitudes::of(&k, q0, q1);
         let (p0, p1) = (k.momenta.p0, k.momenta.p1);
 
@@ -201,9 +201,10 @@ where
         let k = self.legendre(q0, q1);
         let size = MomentumMagnitudes::of(&k, q0, q1);
         let (p0, p1) = (k.momenta.p0, k.momenta.p1);
-        let r = self.by.system.discrete_rayleigh_derivatives(q0, q1, self.by.h);
-        let plus = self.by.system.modified_plus_derivatives(q0, q1, self.by.h);
-        let minus = self.by.system.modified_minus_derivatives(q0, q1, self.by.h);
+        let (system, segment) = (self.by.system, &self.by.between(q0, q1));
+        let r = system.discrete_rayleigh_derivatives(segment);
+        let plus = system.modified_plus_derivatives(segment);
+        let minus = system.modified_minus_derivatives(segment);
 
         match self.discrete_hamiltonian_plus(q0, &p1, Some(&v)) {
             Ok(right) => {

@@ -4,7 +4,9 @@ use nalgebra::{SMatrix, SVector};
 
 use super::{HamiltonJacobi, HamiltonJacobiError, ImplicitEquation};
 use crate::numbers::Scalar;
-use crate::step::{Discrete, LegendreDerivatives, State, StepError, StepKernel, invert, newton};
+use crate::step::{
+    Discrete, LegendreDerivatives, State, StepError, StepKernel, equation::Alone, invert, newton,
+};
 
 /// A discrete Hamiltonian with its derivatives at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,8 +49,7 @@ where
     #[must_use]
     pub fn discrete_action(&self, configurations: &[SVector<S, N>]) -> S {
         configurations.windows(2).enumerate().fold(S::zero(), |sum, (k, pair)| {
-            sum + self
-                .in_step(k, |theory| theory.by.system.discrete_lagrangian(&pair[0], &pair[1], self.by.h))
+            sum + self.in_step(k, |theory| theory.by.objects(&pair[0], &pair[1]).lagrangian())
         })
     }
 
@@ -71,7 +72,7 @@ where
     ) -> Result<DiscreteHamiltonian<S, N>, HamiltonJacobiError> {
         let at = ImplicitEquation::RightHamiltonian.at(0);
         let q1 = self.solve(Unknown::Q1, Given::P1, q0, p1, guess).map_err(&at)?;
-        let l = self.by.system.discrete_lagrangian_derivatives(q0, &q1, self.by.h);
+        let l = self.by.objects(q0, &q1).lagrangian_derivatives();
         let k = self.legendre(q0, &q1);
         let eliminated_by_p = invert(&k.p1_by_q1).map_err(&at)?;
         let eliminated_by_q = -(eliminated_by_p * k.p1_by_q0);
@@ -103,7 +104,7 @@ where
     ) -> Result<DiscreteHamiltonian<S, N>, HamiltonJacobiError> {
         let at = ImplicitEquation::LeftHamiltonian.at(0);
         let q0 = self.solve(Unknown::Q0, Given::P0, q1, p0, guess).map_err(&at)?;
-        let l = self.by.system.discrete_lagrangian_derivatives(&q0, q1, self.by.h);
+        let l = self.by.objects(&q0, q1).lagrangian_derivatives();
         let k = self.legendre(&q0, q1);
         let eliminated_by_p = invert(&k.p0_by_q0).map_err(&at)?;
         let eliminated_by_q = -(eliminated_by_p * k.p0_by_q1);
@@ -141,7 +142,7 @@ where
     }
 
     pub(super) fn legendre(&self, q0: &SVector<S, N>, q1: &SVector<S, N>) -> LegendreDerivatives<S, N> {
-        self.by.system.legendre_derivatives(q0, q1, self.by.h)
+        self.by.objects(q0, q1).legendre()
     }
 
     /// Solves one transform for one end of the segment, in v̄ as the step does.
@@ -160,14 +161,15 @@ where
             Unknown::Q1 => (*known, known + v * h),
         };
         let momentum = |known: &SVector<S, N>, v: &SVector<S, N>| {
-            let momenta = self.by.system.momenta(&ends(known, v).0, v, h);
+            let (q0, q1) = ends(known, v);
+            let momenta = self.by.objects(&q0, &q1).momenta();
             match given {
                 Given::P0 => momenta.p0,
                 Given::P1 => momenta.p1,
             }
         };
-        let v = newton::root(
-            &|known, v| {
+        let equation = Alone {
+            kernel: |known: &SVector<S, N>, v: &SVector<S, N>| {
                 let (q0, q1) = ends(known, v);
                 let k = self.legendre(&q0, &q1);
                 let matrix = match (unknown, given) {
@@ -178,12 +180,13 @@ where
                 };
                 StepKernel { p0: momentum(known, v), matrix }
             },
-            &momentum,
-            &|known, v| self.by.system.lagrangian_derivatives(known, v).d22,
-            &State { q: *known, p: *p },
-            h,
-            guess.copied().unwrap_or_else(nalgebra::zero),
-        )?;
+            momentum,
+            inertia: |known: &SVector<S, N>, v: &SVector<S, N>| {
+                self.by.system.lagrangian_derivatives(known, v).d22
+            },
+        };
+        let start = guess.copied().unwrap_or_else(nalgebra::zero);
+        let v = newton::root(&equation, &State { q: *known, p: *p }, h, start)?;
         let (q0, q1) = ends(known, &v);
         Ok(match unknown {
             Unknown::Q0 => q0,

@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::{DiscreteHamiltonian, HamiltonJacobi, HamiltonJacobiError, ImplicitEquation, section};
 use crate::numbers::{NewtonMatrix, Scalar};
-use crate::step::{Discrete, State, StepError, StepKernel, invert, newton};
+use crate::step::{Discrete, State, StepError, StepKernel, equation::Alone, invert, newton};
 use crate::system::ScalarField;
 
 /// Both sides' difference in a definition of 𝓕^±, with the size of its terms.
@@ -81,18 +81,17 @@ where
         let h = self.by.h;
         let difference = |q: &SVector<S, N>, v: &SVector<S, N>| {
             let x = q + v * h;
-            let l = self.by.system.discrete_lagrangian_derivatives(q, &x, h);
+            let l = self.by.objects(q, &x).lagrangian_derivatives();
             StepKernel { p0: l.d2 - s1.gradient(&x), matrix: (l.d22 - s1.hessian(&x)) * h }
         };
-        let v = newton::root(
-            &difference,
-            &|q, v| difference(q, v).p0,
-            &|q, v| self.by.system.lagrangian_derivatives(q, v).d22,
-            &State { q: *q, p: nalgebra::zero() },
-            h,
-            guess.copied().unwrap_or_else(nalgebra::zero),
-        )
-        .map_err(ImplicitEquation::RightCharacteristic.at(0))?;
+        let equation = Alone {
+            kernel: &difference,
+            momentum: |q: &SVector<S, N>, v: &SVector<S, N>| difference(q, v).p0,
+            inertia: |q: &SVector<S, N>, v: &SVector<S, N>| self.by.system.lagrangian_derivatives(q, v).d22,
+        };
+        let start = guess.copied().unwrap_or_else(nalgebra::zero);
+        let v = newton::root(&equation, &State { q: *q, p: nalgebra::zero() }, h, start)
+            .map_err(ImplicitEquation::RightCharacteristic.at(0))?;
         Ok(q + v * h)
     }
 
@@ -103,7 +102,7 @@ where
         q: &SVector<S, N>,
         x: &SVector<S, N>,
     ) -> Result<Definition<S, N>, HamiltonJacobiError> {
-        let f = self.by.system.discrete_force_derivatives(q, x, self.by.h);
+        let f = self.by.objects(q, x).force_derivatives();
         let p1 = s1.gradient(x) + f.plus.value;
         let h_plus = self.discrete_hamiltonian_plus(q, &p1, Some(&self.mean_velocity(q, x)))?;
         let by_x = invert(&(s1.hessian(x) + f.plus.d2)).map_err(ImplicitEquation::Derivative.at(0))?;
@@ -120,7 +119,7 @@ where
         q: &SVector<S, N>,
         x: &SVector<S, N>,
     ) -> Result<Definition<S, N>, HamiltonJacobiError> {
-        let f = self.by.system.discrete_force_derivatives(q, x, self.by.h);
+        let f = self.by.objects(q, x).force_derivatives();
         let p0 = s0.gradient(q) - f.minus.value;
         let h_minus = self.discrete_hamiltonian_minus(x, &p0, Some(&self.mean_velocity(q, x)))?;
         let by_q = invert(&(s0.hessian(q) - f.minus.d1)).map_err(ImplicitEquation::Derivative.at(0))?;

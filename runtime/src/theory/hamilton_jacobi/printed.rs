@@ -42,7 +42,7 @@ where
         q0: &SVector<S, N>,
         q1: &SVector<S, N>,
     ) -> Momenta<S, N> {
-        let f = self.by.system.discrete_force(q0, q1, self.by.h);
+        let f = self.by.objects(q0, q1).force();
         Momenta { p0: s0.gradient(q0) - f.minus, p1: s1.gradient(q1) + f.plus }
     }
 
@@ -127,7 +127,7 @@ where
         q0: &SVector<S, N>,
         q1: &SVector<S, N>,
     ) -> EquationValue<S> {
-        let l = self.by.system.discrete_lagrangian_derivatives(q0, q1, self.by.h);
+        let l = self.by.objects(q0, q1).lagrangian_derivatives();
         let EquationValue { value, magnitude } = increment(s0, s1, q0, q1);
         EquationValue {
             value: value - l.value,
@@ -162,7 +162,7 @@ where
         F: ScalarField<N, Scalar = S>,
         L: DiscreteRayleigh<R, N>,
     {
-        s0.value(q0) + s1.value(q1) - self.by.system.discrete_rayleigh(q0, q1, self.by.h)
+        s0.value(q0) + s1.value(q1) - self.by.system.discrete_rayleigh(&self.by.between(q0, q1))
     }
 }
 

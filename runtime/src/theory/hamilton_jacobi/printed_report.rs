@@ -10,6 +10,7 @@ use super::{EquationValue, HamiltonJacobi, HamiltonJacobiError, section};
 use crate::numbers::Scalar;
 use crate::step::{Discrete, invert};
 use crate::system::ScalarField;
+use crate::theory::objects::del_residual;
 
 /// The paper's statements about a family S_k, each with its residual on a trajectory q_0, …, q_K.
 ///
@@ -133,10 +134,13 @@ where
         F: ScalarField<N, Scalar = S>,
     {
         let (before, f_plus) = self.at_step(j - 1, |theory| {
-            (theory.legendre(q0, q1), theory.by.system.force_plus(q0, q1, self.by.h))
+            let objects = theory.by.objects(q0, q1);
+            (objects.legendre(), objects.force().plus)
         })?;
-        let (after, f_minus) = self
-            .in_step(j, |theory| (theory.legendre(q1, q2), theory.by.system.force_minus(q1, q2, self.by.h)));
+        let (after, f_minus) = self.in_step(j, |theory| {
+            let objects = theory.by.objects(q1, q2);
+            (objects.legendre(), objects.force().minus)
+        });
         let (size_before, size) =
             (MomentumMagnitudes::of(&before, q0, q1), MomentumMagnitudes::of(&after, q1, q2));
         let node = size_before.p1 + size.p0;
@@ -189,9 +193,7 @@ where
             Err(error) => report.lemma_minus.failure(error.at_step(j)),
         }
         let guess = self.mean_velocity(q1, q2);
-        let forced = |x: &SVector<S, N>| {
-            self.in_step(j - 1, |theory| theory.by.system.del_residual(q0, q1, x, self.by.h))
-        };
+        let forced = |x: &SVector<S, N>| self.in_step(j - 1, |theory| del_residual(&theory.by, q0, q1, x));
         match self.in_step(j, |theory| theory.lemma_flow_plus(s2, q1, Some(&guess))) {
             Ok(x) => {
                 report.lemma_plus_forced.vector(j, q1, &forced(&x), &node, &node);
@@ -228,8 +230,8 @@ where
         q1: &SVector<S, N>,
         q2: &SVector<S, N>,
     ) -> SVector<S, N> {
-        self.by.system.discrete_lagrangian_derivatives(q0, q1, self.by.h).d2
-            + self.in_step(1, |theory| theory.by.system.discrete_lagrangian_derivatives(q1, q2, self.by.h).d1)
+        self.by.objects(q0, q1).lagrangian_derivatives().d2
+            + self.in_step(1, |theory| theory.by.objects(q1, q2).lagrangian_derivatives().d1)
     }
 }
 

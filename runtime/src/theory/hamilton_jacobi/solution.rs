@@ -249,9 +249,8 @@ where
         G: Section<N, Scalar = S>,
     {
         let (q1, df) = (&image.q1, &image.derivative);
-        let k = self.legendre(q, q1);
-        let l = self.by.system.discrete_lagrangian_derivatives(q, q1, self.by.h);
-        let f = self.by.system.discrete_force_derivatives(q, q1, self.by.h);
+        let objects = self.by.objects(q, q1);
+        let (k, l, f) = (objects.legendre(), objects.lagrangian_derivatives(), objects.force_derivatives());
         let size = MomentumMagnitudes::of(&k, q, q1);
         let (gamma0, gamma1) = (before.covector(q), after.covector(q1));
 
@@ -295,7 +294,7 @@ where
     {
         let q1 = &image.q1;
         let gamma1 = after.gradient(q1);
-        let work = after.value(q1) - before.value(q) - self.by.system.discrete_lagrangian(q, q1, self.by.h);
+        let work = after.value(q1) - before.value(q) - self.by.objects(q, q1).lagrangian();
         match self.discrete_hamiltonian_plus(q, &gamma1, Some(&self.mean_velocity(q, q1))) {
             Ok(h_plus) => {
                 let value = after.value(q1) - before.value(q) - gamma1.dot(q1) + h_plus.value - work;

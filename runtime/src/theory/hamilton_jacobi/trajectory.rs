@@ -62,12 +62,12 @@ where
         for (index, q) in configurations.windows(3).enumerate() {
             let (k, [q0, q1, q2]) = (index + 1, [&q[0], &q[1], &q[2]]);
             let (before, f_plus, d2) = self.at_step(index, |theory| {
-                let l = theory.by.system.discrete_lagrangian_derivatives(q0, q1, self.by.h);
-                (theory.legendre(q0, q1), theory.by.system.force_plus(q0, q1, self.by.h), l.d2)
+                let objects = theory.by.objects(q0, q1);
+                (objects.legendre(), objects.force().plus, objects.lagrangian_derivatives().d2)
             })?;
             let (after, f_minus, d1) = self.in_step(k, |theory| {
-                let l = theory.by.system.discrete_lagrangian_derivatives(q1, q2, self.by.h);
-                (theory.legendre(q1, q2), theory.by.system.force_minus(q1, q2, self.by.h), l.d1)
+                let objects = theory.by.objects(q1, q2);
+                (objects.legendre(), objects.force().minus, objects.lagrangian_derivatives().d1)
             });
             let (p_plus, p_minus) = (before.momenta.p1, after.momenta.p0);
             let net = f_plus + f_minus;

@@ -10,6 +10,7 @@ use super::{HamiltonJacobi, HamiltonJacobiError, section};
 use crate::numbers::Scalar;
 use crate::step::Discrete;
 use crate::system::ScalarField;
+use crate::theory::objects::del_residual;
 
 /// The right equation as an equation of functions, q_{k+1} given by γ⁺ = 𝔽⁺.
 ///
@@ -75,9 +76,9 @@ where
                     (
                         theory.action_increment(&s[0], &s[1], q, &x),
                         theory.legendre(q, &x),
-                        theory.by.system.discrete_lagrangian_derivatives(q, &x, self.by.h),
+                        theory.by.objects(q, &x).lagrangian_derivatives(),
                         theory.unforced_residual(q, &x, &y),
-                        theory.by.system.del_residual(q, &x, &y, self.by.h),
+                        del_residual(&theory.by, q, &x, &y),
                     )
                 });
                 let after = self.in_step(k + 1, |theory| theory.legendre(&x, &y));

@@ -48,7 +48,7 @@ where
         q: &SVector<S, N>,
     ) -> Result<VirtualWork<S, N>, HamiltonJacobiError> {
         let q1 = self.step(q, &s0.gradient(q), None)?.q;
-        let value = s1.value(&q1) - s0.value(q) - self.by.system.discrete_lagrangian(q, &q1, self.by.h);
+        let value = s1.value(&q1) - s0.value(q) - self.by.objects(q, &q1).lagrangian();
         Ok(VirtualWork { q1, value })
     }
 
@@ -85,9 +85,7 @@ where
         for (k, work) in virtual_work.iter().enumerate() {
             let [from, to] = [characteristic.states[k].q, characteristic.states[k + 1].q];
             values.push(
-                values[k]
-                    + self.in_step(k, |theory| theory.by.system.discrete_lagrangian(&from, &to, self.by.h))
-                    + *work,
+                values[k] + self.in_step(k, |theory| theory.by.objects(&from, &to).lagrangian()) + *work,
             );
         }
         Ok(CarriedGeneratingFunction {
@@ -123,7 +121,7 @@ where
     /// d(W_k ∘ c_k) = Q_kᵀ f_d⁻ + Q_{k+1}ᵀ f_d⁺, a covector on the labels.
     fn work_covector(&self, characteristic: &Characteristic<S, N>, k: usize) -> SVector<S, N> {
         let [from, to] = [&characteristic.states[k].q, &characteristic.states[k + 1].q];
-        let f = self.in_step(k, |theory| theory.by.system.discrete_force(from, to, self.by.h));
+        let f = self.in_step(k, |theory| theory.by.objects(from, to).force());
         characteristic.frames[k].q.tr_mul(&f.minus) + characteristic.frames[k + 1].q.tr_mul(&f.plus)
     }
 }

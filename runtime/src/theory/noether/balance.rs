@@ -121,8 +121,7 @@ where
         for step in steps {
             let step = step?;
             let k = balance.steps as usize;
-            let defect =
-                at_time_of(&self.by, k, |by| by.system.defect(generator, &at.q, &step.state.q, by.h).0);
+            let defect = at_time_of(&self.by, k, |by| by.objects(&at.q, &step.state.q).defect(generator).0);
             let next = momentum_map(&step.state);
             let off = (next - j - defect.total().widen()).abs();
             // A NaN must not hide behind a comparison.
@@ -156,16 +155,16 @@ where
         let (xi0, xi1) = (generator.vector(q0).abs(), generator.vector(q1).abs());
         let (size0, size1) = (q0.abs(), q1.abs());
         let (at_q0, at_q1) = at_time_of(&self.by, k, |by| {
+            let objects = by.objects(q0, q1);
             if L::HAS_INTERIOR_POINTS {
                 // Of its derivatives the sums alone are exact, and cheap.
-                let of = by.system.legendre_derivatives(q0, q1, by.h);
+                let of = objects.legendre();
                 return (
                     of.momenta.p0.abs() + of.p0_by_q0.abs() * size0 + of.p0_by_q1.abs() * size1,
                     of.momenta.p1.abs() + of.p1_by_q0.abs() * size0 + of.p1_by_q1.abs() * size1,
                 );
             }
-            let l = by.system.discrete_lagrangian_derivatives(q0, q1, by.h);
-            let f = by.system.discrete_force_derivatives(q0, q1, by.h);
+            let (l, f) = (objects.lagrangian_derivatives(), objects.force_derivatives());
             (
                 l.d1.abs()
                     + f.minus.value.abs()

@@ -9,7 +9,7 @@ use crate::numbers::Scalar;
 use crate::step::Discrete;
 use crate::theory::{
     samples::{
-        SampleError, Segment, Sizes, Stopped, at_several_times, at_time_of, different, require_informative,
+        Pair, SampleError, Sizes, Stopped, at_several_times, at_time_of, different, require_informative,
         require_step_size,
     },
     verdict::largest,
@@ -129,7 +129,7 @@ where
     pub fn subalgebra(
         &self,
         generators: &[Generator<L::Scalar, N>],
-        segments: &[Segment<L::Scalar, N>],
+        segments: &[Pair<L::Scalar, N>],
     ) -> Result<Subalgebra, SubalgebraError> {
         require_step_size(self.by.h)?;
         require_informative(segments, |segment| {
@@ -194,14 +194,14 @@ where
         &self,
         k: usize,
         xi: &Generator<L::Scalar, N>,
-        segment: &Segment<L::Scalar, N>,
+        segment: &Pair<L::Scalar, N>,
     ) -> Result<Row, Stopped> {
         let Terms { defect, size } = self.terms(k, xi, segment)?;
         let mut contraction = Vec::new();
         at_time_of(&self.by, k, |by| {
             let mut component =
                 |value: L::Scalar, size: L::Scalar| contraction.push((value.widen(), size.widen()));
-            by.system.force_contraction(xi, &segment.q0, &segment.q1, by.h, &mut component);
+            by.objects(&segment.q0, &segment.q1).force_contraction(xi, &mut component);
         });
         Ok(Row {
             lagrangian: (defect.lagrangian, size.lagrangian),

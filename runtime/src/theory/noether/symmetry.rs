@@ -2,17 +2,17 @@ use core::fmt;
 
 use super::{Generator, Noether, Terms, moves_an_end};
 use crate::numbers::Scalar;
-use crate::step::Discrete;
+use crate::step::{Discrete, Momenta};
 use crate::system::VectorField;
 use crate::theory::{
     samples::{
-        SampleError, Segment, at_segment, at_several_times, require_informative, require_step_size, worst,
+        Pair, SampleError, at_segment, at_several_times, require_informative, require_step_size, worst,
     },
     verdict::{Finding, scales},
 };
 
 /// One of the quantities of Noether's theorem over the samples.
-pub type Contribution<const N: usize> = Finding<Segment<f64, N>>;
+pub type Contribution<const N: usize> = Finding<Pair<f64, N>>;
 
 /// The effect of a generator on L_d, the force and J, over a set of segments. See [`Noether::symmetry`].
 #[derive(Clone, Debug, PartialEq)]
@@ -87,7 +87,7 @@ where
     pub fn symmetry(
         &self,
         generator: &Generator<L::Scalar, N>,
-        segments: &[Segment<L::Scalar, N>],
+        segments: &[Pair<L::Scalar, N>],
     ) -> Result<Symmetry<N>, SampleError> {
         require_step_size(self.by.h)?;
         require_informative(segments, |segment| segment.moves() && moves_an_end(generator, segment))?;
@@ -100,11 +100,10 @@ where
         let of_all = sizes(|terms| terms.size.total());
         let contribution =
             |value: &dyn Fn(usize) -> f64, scales: &[f64]| worst(segments, self.tolerance, scales, value);
-        let identity = |(k, Segment { q0, q1 }): (usize, &Segment<L::Scalar, N>)| {
+        let identity = |(k, Pair { q0, q1 }): (usize, &Pair<L::Scalar, N>)| {
             let jump = at_segment(&self.by, k, |by| {
-                let (before, after) =
-                    (by.system.legendre_minus(q0, q1, by.h), by.system.legendre_plus(q0, q1, by.h));
-                after.p.dot(&generator.vector(q1)) - before.p.dot(&generator.vector(q0))
+                let Momenta { p0, p1 } = by.objects(q0, q1).momenta();
+                p1.dot(&generator.vector(q1)) - p0.dot(&generator.vector(q0))
             });
             jump.map(|jump| jump.widen() - terms[k].defect.total())
         };

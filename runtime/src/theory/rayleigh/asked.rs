@@ -59,8 +59,8 @@ where
     let at = |k: usize, state: &State<L::Scalar, N>| at_segment(by, k, |by| by.linearized_step(state));
     let (mut derivatives, mut ends) = (Vec::new(), Vec::new());
     for (k, state) in states.iter().enumerate() {
-        let (step, linear) = at(k, state)?.map_err(|error| Unasked::Step(k, error))?;
-        derivatives.push(linear.a);
+        let (step, a) = at(k, state)?.map_err(|error| Unasked::Step(k, error))?;
+        derivatives.push(a);
         ends.push(step.state);
     }
     // A coordinate that starts at 0 has the size that a step gives it.
@@ -68,10 +68,10 @@ where
     let mut moves = states.iter().zip(&ends).any(|(state, end)| sizes.are_apart(state, end));
     for (k, state) in around(states, &sizes, [1.0, 1.0]).iter().enumerate() {
         // Beside the states given a system may end.
-        if let Ok((step, linear)) = at(states.len() + k, state)?
-            && is_finite(&linear.a)
+        if let Ok((step, a)) = at(states.len() + k, state)?
+            && is_finite(&a)
         {
-            derivatives.push(linear.a);
+            derivatives.push(a);
             moves |= Sizes::of([*state, step.state]).are_apart(state, &step.state);
         }
     }

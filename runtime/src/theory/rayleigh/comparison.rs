@@ -9,10 +9,11 @@ use super::{Integral, SegmentFinding};
 use crate::numbers::Scalar;
 use crate::step::stop::Stop;
 use crate::step::{Discrete, DiscreteForce, Discretised};
+use crate::theory::objects::del_residual;
 use crate::theory::{
     samples::{
-        SampleError, Segment, Stopped, Tolerance, at_segment, at_several_times, at_time_of,
-        require_informative, require_step_size,
+        Pair, SampleError, Stopped, Tolerance, at_segment, at_several_times, at_time_of, require_informative,
+        require_step_size,
     },
     verdict::scales,
 };
@@ -105,7 +106,7 @@ where
     pub fn psi(&self, q: &SVector<L::Scalar, N>) -> Integral {
         let Self { ours, theirs, base } = self;
         let difference = |s: &SVector<L::Scalar, N>| {
-            theirs.system.legendre_minus(s, base, theirs.h).p - ours.system.legendre_minus(s, base, ours.h).p
+            theirs.objects(s, base).momenta().p0 - ours.objects(s, base).momenta().p0
         };
         along_line(base, q, difference) * -0.5
     }
@@ -140,9 +141,9 @@ where
     ///
     /// # Errors
     /// [`SampleError`] if there is no segment, none that moves, or a value is not finite.
-    pub fn check(&self, segments: &[Segment<L::Scalar, N>]) -> Result<Equivalence<N>, SampleError> {
+    pub fn check(&self, segments: &[Pair<L::Scalar, N>]) -> Result<Equivalence<N>, SampleError> {
         require_step_size(self.ours.h)?;
-        require_informative(segments, Segment::moves)?;
+        require_informative(segments, Pair::moves)?;
         let segments = &match at_several_times(&self.ours, segments) {
             Cow::Borrowed(segments) => at_several_times(&self.theirs, segments),
             repeated => repeated,
@@ -165,7 +166,7 @@ where
             core::array::from_fn(|i| scales(&sizes.iter().map(|size| size[i]).collect::<Vec<_>>()));
         let (mut equations, mut lagrangian, mut rayleigh) = (None, None, None);
         for (index, segment) in segments.iter().enumerate() {
-            let Segment { q0, q1 } = segment;
+            let Pair { q0, q1 } = segment;
             let at = segment.widen();
             let (difference, [psi0, phi0, phi1, phi, chi]) = self.at_segment(index, |both| {
                 let parts = [both.psi(q0), both.phi0(q0), both.phi1(q1), both.phi(q0, q1), both.chi(q0, q1)];
@@ -200,18 +201,18 @@ where
 
     /// φ = L̃_d − L_d.
     fn phi(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
-        let theirs = self.theirs.system.discrete_lagrangian(q0, q1, self.theirs.h);
-        let ours = self.ours.system.discrete_lagrangian(q0, q1, self.ours.h);
+        let theirs = self.theirs.objects(q0, q1).lagrangian();
+        let ours = self.ours.objects(q0, q1).lagrangian();
         let magnitude = theirs.widen().abs() + ours.widen().abs();
         Integral { value: (theirs - ours).widen(), error: L::Scalar::EPSILON.widen() * magnitude, magnitude }
     }
 
     /// χ = R̃_d − R_d, 0 at (a, a).
     fn chi(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
-        let (start, end) = (Segment { q0: self.base, q1: self.base }, Segment { q0: *q0, q1: *q1 });
+        let (start, end) = (Pair { q0: self.base, q1: self.base }, Pair { q0: *q0, q1: *q1 });
         between(&start, &end, |q0, q1| {
-            let theirs = self.theirs.system.discrete_force(q0, q1, self.theirs.h);
-            let ours = self.ours.system.discrete_force(q0, q1, self.ours.h);
+            let theirs = self.theirs.objects(q0, q1).force();
+            let ours = self.ours.objects(q0, q1).force();
             DiscreteForce { minus: theirs.minus - ours.minus, plus: theirs.plus - ours.plus }
         })
     }
@@ -224,17 +225,14 @@ where
         q2: &SVector<L::Scalar, N>,
     ) -> SVector<L::Scalar, N> {
         let Self { ours, theirs, .. } = self;
-        theirs.system.del_residual(q0, q1, q2, theirs.h) - ours.system.del_residual(q0, q1, q2, ours.h)
+        del_residual(theirs, q0, q1, q2) - del_residual(ours, q0, q1, q2)
     }
 
     /// The sizes of all momenta on a segment, coordinate by coordinate: the terms of the equations.
     fn momentum_sizes(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> SVector<f64, N> {
         let Self { ours, theirs, .. } = self;
-        let sizes = ours.system.legendre_minus(q0, q1, ours.h).p.abs()
-            + ours.system.legendre_plus(q0, q1, ours.h).p.abs()
-            + theirs.system.legendre_minus(q0, q1, theirs.h).p.abs()
-            + theirs.system.legendre_plus(q0, q1, theirs.h).p.abs();
-        sizes.map(Scalar::widen)
+        let (ours, theirs) = (ours.objects(q0, q1).momenta(), theirs.objects(q0, q1).momenta());
+        (ours.p0.abs() + ours.p1.abs() + theirs.p0.abs() + theirs.p1.abs()).map(Scalar::widen)
     }
 }
 

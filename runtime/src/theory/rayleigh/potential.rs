@@ -8,7 +8,7 @@ use super::{Integral, RayleighStructure, SegmentFinding};
 use crate::step::stop::Stop;
 use crate::step::{Discrete, Discretised};
 use crate::theory::{
-    samples::{SampleError, Segment, Tolerance, at_segment, at_several_times},
+    samples::{Pair, SampleError, Tolerance, at_segment, at_several_times},
     verdict::largest,
 };
 
@@ -25,7 +25,7 @@ where
     L: Discrete<R, N>,
 {
     by: Discretised<'a, L, R, N>,
-    base: Segment<L::Scalar, N>,
+    base: Pair<L::Scalar, N>,
 }
 
 /// The recovered R_d over a set of segments. See [`Potential::check`].
@@ -59,7 +59,7 @@ where
     /// The potential of the discrete force of `system` by `rule` with step size `h`, 0 at `base`.
     ///
     /// Where R(q, 0) = 0, a base at rest (a, a) gives the R_d of the rule itself.
-    pub fn new(system: &'a L, _rule: R, h: L::Scalar, base: Segment<L::Scalar, N>) -> Self {
+    pub fn new(system: &'a L, _rule: R, h: L::Scalar, base: Pair<L::Scalar, N>) -> Self {
         Self { by: Discretised::new(system, h), base }
     }
 
@@ -72,7 +72,7 @@ where
 
     /// R_d(q0, q1) along the straight line from the base.
     pub fn at(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
-        along(&self.by, &self.base, &Segment { q0: *q0, q1: *q1 })
+        along(&self.by, &self.base, &Pair { q0: *q0, q1: *q1 })
     }
 
     /// Recovers R_d at `segments`, along the straight path and along the edges of the box in Q×Q.
@@ -81,7 +81,7 @@ where
     ///
     /// # Errors
     /// [`SampleError`] if there is no segment, none that moves, or a force on a path is not finite.
-    pub fn check(&self, segments: &[Segment<L::Scalar, N>]) -> Result<Recovery<N>, SampleError> {
+    pub fn check(&self, segments: &[Pair<L::Scalar, N>]) -> Result<Recovery<N>, SampleError> {
         let structure = self.by.rayleigh_structure(segments)?;
         let given = segments.len();
         let segments = &at_several_times(&self.by, segments)[..];
@@ -104,17 +104,17 @@ where
 /// R_d at `end` less R_d at `start`, along the straight line.
 fn along<L: Discrete<R, N>, R, const N: usize>(
     by: &Discretised<'_, L, R, N>,
-    start: &Segment<L::Scalar, N>,
-    end: &Segment<L::Scalar, N>,
+    start: &Pair<L::Scalar, N>,
+    end: &Pair<L::Scalar, N>,
 ) -> Integral {
-    between(start, end, |q0, q1| by.system.discrete_force(q0, q1, by.h))
+    between(start, end, |q0, q1| by.objects(q0, q1).force())
 }
 
 /// That integral, one coordinate after the other, those of q0 first.
 fn along_edges<L: Discrete<R, N>, R, const N: usize>(
     by: &Discretised<'_, L, R, N>,
-    start: &Segment<L::Scalar, N>,
-    end: &Segment<L::Scalar, N>,
+    start: &Pair<L::Scalar, N>,
+    end: &Pair<L::Scalar, N>,
 ) -> Integral {
     let mut corner = *start;
     (0..2 * N).fold(Integral::ZERO, |sum, axis| {

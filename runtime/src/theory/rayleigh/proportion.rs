@@ -7,7 +7,7 @@ use nalgebra::SVector;
 use crate::numbers::Scalar;
 use crate::step::{Discrete, DiscreteRayleigh, Discretised};
 use crate::theory::samples::{
-    SampleError, Segment, Sizes, Tolerance, around, at_segment, different, require_informative,
+    Pair, SampleError, Sizes, Tolerance, around, at_segment, different, require_informative,
     require_step_size,
 };
 use crate::theory::verdict::{Finding, largest};
@@ -40,7 +40,7 @@ pub struct Proportion<const N: usize> {
     /// The κ that was tried, by least squares.
     pub kappa: f64,
     /// D1D2R_d − κ D1D2L_d where it is furthest above its tolerance.
-    pub defect: Finding<Segment<f64, N>>,
+    pub defect: Finding<Pair<f64, N>>,
     /// Its row and column.
     pub entry: (usize, usize),
 }
@@ -131,14 +131,14 @@ where
 
     /// G(q0, q1), with p1 = D2G and c p0 = −D1G.
     pub fn generating_function(&self, q0: &SVector<S, N>, q1: &SVector<S, N>) -> S {
-        let lagrangian = self.by.system.discrete_lagrangian(q0, q1, self.by.h);
+        let lagrangian = self.by.discrete_lagrangian(q0, q1);
         (S::one() - self.kappa) * lagrangian + self.factor() * self.alpha(q0) - self.beta(q1)
     }
 
     /// ρ = R_d − κL_d.
     fn remainder(&self, q0: &SVector<S, N>, q1: &SVector<S, N>) -> S {
-        let (system, h) = (self.by.system, self.by.h);
-        system.discrete_rayleigh(q0, q1, h) - self.kappa * system.discrete_lagrangian(q0, q1, h)
+        let segment = self.by.between(q0, q1);
+        self.by.system.discrete_rayleigh(&segment) - self.kappa * self.by.system.discrete_lagrangian(&segment)
     }
 }
 
@@ -158,23 +158,24 @@ where
     ///
     /// # Errors
     /// A [`ProportionError`](crate::rayleigh::ProportionError).
-    pub fn proportion(&self, segments: &[Segment<S, N>]) -> Result<Proportion<N>, ProportionError> {
+    pub fn proportion(&self, segments: &[Pair<S, N>]) -> Result<Proportion<N>, ProportionError> {
         require_step_size(self.h)?;
-        require_informative(segments, Segment::moves)?;
+        require_informative(segments, Pair::moves)?;
         let needed = if N == 1 { 2 } else { 1 };
         let sizes = Sizes::of(segments.iter().copied());
         let mut blocks = Vec::new();
         let beside = around(segments, &sizes, [1.0, self.h.widen().abs()]);
         let mut asked = Vec::new();
         for (index, segment) in segments.iter().chain(&beside).enumerate() {
-            let Segment { q0, q1 } = segment;
+            let Pair { q0, q1 } = segment;
             // Beside the segments given a system may end.
             let is_given = index < segments.len();
             let (l, r, f) = at_segment(self, index, |by| {
+                let (system, segment) = (by.system, &by.between(q0, q1));
                 (
-                    by.system.discrete_lagrangian_derivatives(q0, q1, by.h),
-                    by.system.discrete_rayleigh_derivatives(q0, q1, by.h),
-                    by.system.discrete_force(q0, q1, by.h),
+                    system.discrete_lagrangian_derivatives(segment),
+                    system.discrete_rayleigh_derivatives(segment),
+                    system.discrete_force(segment),
                 )
             })
             .map_err(SampleError::from)?;

@@ -7,7 +7,7 @@ use nalgebra::SVector;
 use crate::numbers::Scalar;
 use crate::step::DiscreteForce;
 use crate::theory::legendre::GaussLegendre;
-use crate::theory::samples::Segment;
+use crate::theory::samples::Pair;
 
 /// An integral by quadrature.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -102,8 +102,8 @@ pub(in crate::theory) fn integrate_sum(epsilon: f64, g: impl Fn(f64) -> (f64, f6
 
 /// ∫ f⁻·dq0 − f⁺·dq1 along the straight line from `start` to `end` in Q×Q.
 pub(super) fn between<S: Scalar, const N: usize>(
-    start: &Segment<S, N>,
-    end: &Segment<S, N>,
+    start: &Pair<S, N>,
+    end: &Pair<S, N>,
     force: impl Fn(&SVector<S, N>, &SVector<S, N>) -> DiscreteForce<S, N>,
 ) -> Integral {
     let (d0, d1) = (end.q0 - start.q0, end.q1 - start.q1);

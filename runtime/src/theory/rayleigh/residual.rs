@@ -4,13 +4,13 @@ use core::fmt;
 
 use super::Integral;
 use crate::theory::{
-    samples::{SampleError, Segment},
+    samples::{Pair, SampleError},
     verdict::{Finding, Tolerance},
 };
 
 /// A quantity that has to vanish, over the samples. A tolerance that the quadrature's error brings up to the
 /// size of the terms says nothing.
-pub type SegmentFinding<const N: usize> = Finding<Segment<f64, N>>;
+pub type SegmentFinding<const N: usize> = Finding<Pair<f64, N>>;
 
 /// Keeps the value that is worse in units of its tolerance; what a tolerance says nothing of is worst.
 pub(super) fn keep_worse<const N: usize>(
@@ -18,7 +18,7 @@ pub(super) fn keep_worse<const N: usize>(
     value: f64,
     tolerance: f64,
     terms: f64,
-    at: Segment<f64, N>,
+    at: Pair<f64, N>,
 ) {
     SegmentFinding::bounded(value, tolerance, terms, at)
         .keep_if_worse(worst, SegmentFinding::excess_or_silence);
@@ -30,7 +30,7 @@ pub(super) fn keep_worse_gap<const N: usize>(
     gap: Integral,
     relative: f64,
     index: usize,
-    at: Segment<f64, N>,
+    at: Pair<f64, N>,
 ) -> Result<(), SampleError> {
     let tolerance = gap.error + relative * gap.magnitude;
     if !(gap.value.is_finite() && tolerance.is_finite()) {

@@ -9,7 +9,7 @@ use crate::numbers::Scalar;
 use crate::step::stop::Stop;
 use crate::step::{Discrete, Discretised};
 use crate::theory::{
-    samples::{SampleError, Segment, Tolerance, at_segment, at_several_times},
+    samples::{Pair, SampleError, Tolerance, at_segment, at_several_times},
     verdict::largest,
 };
 
@@ -97,13 +97,13 @@ where
     ///
     /// # Errors
     /// [`SampleError`] if there is no segment, none that moves, or a force on a path is not finite.
-    pub fn check(&self, segments: &[Segment<L::Scalar, N>]) -> Result<ResplitReport<N>, SampleError> {
+    pub fn check(&self, segments: &[Pair<L::Scalar, N>]) -> Result<ResplitReport<N>, SampleError> {
         let structure = self.by.rayleigh_structure(segments)?;
         let segments = &at_several_times(&self.by, segments)[..];
         let relative = Tolerance::rounding::<L::Scalar>();
         let (mut plus, mut minus, mut quadrature_error) = (None, None, 0.0_f64);
         for (index, segment) in segments.iter().enumerate() {
-            let Segment { q0, q1 } = segment;
+            let Pair { q0, q1 } = segment;
             let (straight, edges) = at_segment(&self.by, index, |by| {
                 let (at_start, at_end) = (at_start(by, q1), at_end(by, q0));
                 let straight = (along_line(&self.base, q0, &at_start), along_line(&self.base, q1, &at_end));
@@ -125,7 +125,7 @@ where
     }
 
     fn lagrangian(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
-        let value = self.by.system.discrete_lagrangian(q0, q1, self.by.h).widen();
+        let value = self.by.objects(q0, q1).lagrangian().widen();
         Integral { value, error: L::Scalar::EPSILON.widen() * value.abs(), magnitude: value.abs() }
     }
 }
@@ -135,7 +135,7 @@ fn at_start<L: Discrete<R, N>, R, const N: usize>(
     by: &Discretised<'_, L, R, N>,
     q1: &SVector<L::Scalar, N>,
 ) -> impl Fn(&SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
-    move |s| by.system.force_minus(s, q1, by.h)
+    move |s| by.objects(s, q1).force().minus
 }
 
 /// s ↦ f_d⁺(q0, s).
@@ -143,7 +143,7 @@ fn at_end<L: Discrete<R, N>, R, const N: usize>(
     by: &Discretised<'_, L, R, N>,
     q0: &SVector<L::Scalar, N>,
 ) -> impl Fn(&SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
-    move |s| by.system.force_plus(q0, s, by.h)
+    move |s| by.objects(q0, s).force().plus
 }
 
 impl<const N: usize> fmt::Display for ResplitReport<N> {

@@ -54,8 +54,10 @@ use core::cell::Cell;
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::Scalar;
-use crate::step::{Discrete, Discretised, LegendreDerivatives, State, StepError, StepKernel, invert, newton};
-use crate::theory::samples::{Segment, Sizes, around};
+use crate::step::{
+    Discrete, Discretised, LegendreDerivatives, State, StepError, StepKernel, equation::Alone, invert, newton,
+};
+use crate::theory::samples::{Pair, Sizes, around};
 use coordinates::{shape, with, without};
 pub use error::RouthError;
 
@@ -66,7 +68,7 @@ pub struct Routh<'a, L: Discrete<R, N>, R, const N: usize, const K: usize> {
     by: Discretised<'a, L, R, N>,
     cyclic: usize,
     /// The segment of x from which g is read off.
-    reference: Segment<L::Scalar, K>,
+    reference: Pair<L::Scalar, K>,
 }
 
 /// A state of the reduced system.
@@ -107,7 +109,7 @@ where
     pub fn routh<const K: usize>(
         &self,
         cyclic: usize,
-        segments: &[Segment<L::Scalar, N>],
+        segments: &[Pair<L::Scalar, N>],
     ) -> Result<Routh<'a, L, R, N, K>, RouthError> {
         const { assert!(K > 0 && K + 1 == N, "K is N − 1, N at least 2") };
         let first = segments.first().ok_or(RouthError::Uninformative)?;
@@ -147,7 +149,7 @@ where
     /// # Errors
     /// [`RouthError::NoAngle`] where no Δ has this momentum.
     pub fn next_momentum(&self, momentum: L::Scalar) -> Result<L::Scalar, RouthError> {
-        let Segment { q0, q1 } = &self.reference;
+        let Pair { q0, q1 } = &self.reference;
         let v = (q1 - q0) / self.by.step_size();
         let (k, _) = self.segment(q0, &v, momentum, nalgebra::zero()).map_err(RouthError::NoAngle)?;
         Ok(k.momenta.p1[self.cyclic])
@@ -164,22 +166,23 @@ where
     ) -> Result<(LegendreDerivatives<L::Scalar, N>, L::Scalar), StepError> {
         let (system, h, theta) = (self.by.system(), self.by.step_size(), self.cyclic);
         let q0 = with(x, nalgebra::zero(), theta);
-        let at = |rate: L::Scalar| system.legendre_derivatives(&q0, &with(&(x + v * h), rate * h, theta), h);
-        let kernel = |_: &_, rate: &SVector<L::Scalar, 1>| {
+        let at = |rate: L::Scalar| self.by.objects(&q0, &with(&(x + v * h), rate * h, theta)).legendre();
+        let kernel = |_: &SVector<L::Scalar, 1>, rate: &SVector<L::Scalar, 1>| {
             let k = at(rate[0]);
             StepKernel {
                 p0: SVector::from([k.momenta.p0[theta]]),
                 matrix: SMatrix::from([[k.p0_by_q1[(theta, theta)] * h]]),
             }
         };
-        let momentum_of = |q: &_, rate: &_| kernel(q, rate).p0;
-        let inertia = |_: &_, rate: &SVector<L::Scalar, 1>| {
+        let momentum_of = |q: &SVector<L::Scalar, 1>, rate: &SVector<L::Scalar, 1>| kernel(q, rate).p0;
+        let inertia = |_: &SVector<L::Scalar, 1>, rate: &SVector<L::Scalar, 1>| {
             SMatrix::from([
                 [system.lagrangian_derivatives(&q0, &with(v, rate[0], theta)).d22[(theta, theta)]],
             ])
         };
         let state = State { q: nalgebra::zero(), p: SVector::from([momentum]) };
-        let root = newton::root(&kernel, &momentum_of, &inertia, &state, h, SVector::from([start]))?;
+        let equation = Alone { kernel: &kernel, momentum: momentum_of, inertia };
+        let root = newton::root(&equation, &state, h, SVector::from([start]))?;
         // Once more: what is left of the residual here is noise in the equation for x.
         let left = kernel(&state.q, &root);
         let rate = root[0] - (left.p0[0] - momentum) / left.matrix[0];
@@ -216,7 +219,7 @@ where
             });
             StepKernel { p0: without(&k.momenta.p0, theta), matrix }
         };
-        let momentum_of = |x: &_, v: &_| kernel(x, v).p0;
+        let momentum_of = |x: &SVector<L::Scalar, K>, v: &SVector<L::Scalar, K>| kernel(x, v).p0;
         let inertia = |x: &SVector<L::Scalar, K>, v: &SVector<L::Scalar, K>| {
             let q = with(x, nalgebra::zero(), theta);
             let mass = system.lagrangian_derivatives(&q, &with(v, guess.get(), theta)).d22;
@@ -224,7 +227,8 @@ where
             SMatrix::<_, K, K>::from_fn(|i, j| mass[(of(i), of(j))])
         };
         let start = without(&velocity, theta);
-        let v = newton::root(&kernel, &momentum_of, &inertia, shape, h, start)
+        let equation = Alone { kernel: &kernel, momentum: momentum_of, inertia };
+        let v = newton::root(&equation, shape, h, start)
             .map_err(|error| no_angle.take().map_or(RouthError::Step(error), RouthError::NoAngle))?;
         let (k, rate) = self.segment(&shape.q, &v, *momentum, guess.get()).map_err(RouthError::NoAngle)?;
         invert(&k.p0_by_q1).map_err(RouthError::Step)?;

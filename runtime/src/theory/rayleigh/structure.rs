@@ -4,8 +4,8 @@ use crate::numbers::Scalar;
 use crate::step::{Discrete, DiscreteForceDerivatives, Discretised};
 use crate::theory::{
     samples::{
-        SampleError, Segment, Tolerance, at_segment, at_several_times, require_informative,
-        require_step_size, worst,
+        Pair, SampleError, Tolerance, at_segment, at_several_times, require_informative, require_step_size,
+        worst,
     },
     verdict::{Finding, largest, scales},
 };
@@ -14,7 +14,7 @@ use crate::theory::{
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Condition<const N: usize> {
     /// The asymmetry furthest above its tolerance.
-    pub worst: Finding<Segment<f64, N>>,
+    pub worst: Finding<Pair<f64, N>>,
     /// Its row and column.
     pub entry: (usize, usize),
 }
@@ -76,7 +76,7 @@ pub fn structure<L, R, const N: usize>(
     system: &L,
     _rule: R,
     h: L::Scalar,
-    segments: &[Segment<L::Scalar, N>],
+    segments: &[Pair<L::Scalar, N>],
 ) -> Result<RayleighStructure<N>, SampleError>
 where
     L: Discrete<R, N>,
@@ -96,17 +96,15 @@ where
     /// Those of [`rayleigh::structure`](crate::rayleigh::structure()); [`SampleError::Stopped`].
     pub fn rayleigh_structure(
         &self,
-        segments: &[Segment<L::Scalar, N>],
+        segments: &[Pair<L::Scalar, N>],
     ) -> Result<RayleighStructure<N>, SampleError> {
         require_step_size(self.h)?;
-        require_informative(segments, Segment::moves)?;
+        require_informative(segments, Pair::moves)?;
         let segments = &at_several_times(self, segments)[..];
         let hessians: Vec<_> = segments
             .iter()
             .enumerate()
-            .map(|(k, Segment { q0, q1 })| {
-                at_segment(self, k, |by| by.system.discrete_force_derivatives(q0, q1, by.h))
-            })
+            .map(|(k, Pair { q0, q1 })| at_segment(self, k, |by| by.objects(q0, q1).force_derivatives()))
             .collect::<Result<_, _>>()?;
         // An asymmetry of derivatives that are not finite may still be 0.
         for (index, f) in hessians.iter().enumerate() {
@@ -148,11 +146,11 @@ fn entry<S: Scalar, const N: usize>(f: &DiscreteForceDerivatives<S, N>, a: usize
 }
 
 fn compare<S: Scalar, const N: usize>(
-    segments: &[Segment<S, N>],
+    segments: &[Pair<S, N>],
     hessians: &[DiscreteForceDerivatives<S, N>],
     a: usize,
     b: usize,
-) -> Result<Finding<Segment<f64, N>>, SampleError> {
+) -> Result<Finding<Pair<f64, N>>, SampleError> {
     let size = |f: &DiscreteForceDerivatives<S, N>| {
         // Roots first: a product of entries may overflow.
         let diagonal = entry(f, a, a).abs().sqrt() * entry(f, b, b).abs().sqrt();

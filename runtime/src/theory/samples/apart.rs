@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use super::Segment;
+use super::Pair;
 use crate::numbers::Scalar;
 use crate::step::State;
 use crate::theory::verdict::Tolerance;
@@ -25,7 +25,7 @@ impl<S: Scalar, const N: usize> Sample<S, N> for State<S, N> {
 }
 
 /// By the start and the displacement.
-impl<S: Scalar, const N: usize> Sample<S, N> for Segment<S, N> {
+impl<S: Scalar, const N: usize> Sample<S, N> for Pair<S, N> {
     fn parts(&self) -> [SVector<S, N>; 2] {
         [self.q0, self.q1 - self.q0]
     }

@@ -205,7 +205,7 @@ where
 /// The step with a memory, likewise.
 #[inline(never)]
 fn advance<L, R, const N: usize>(
-    memory: &mut L::Memory,
+    memory: &mut L::RunMemory,
     system: &L,
     state: &State<f64, N>,
     h: f64,
@@ -273,7 +273,7 @@ fn by_one_stage<L, R, const N: usize>(
     if let Ok(step) = step::<L, R, N>(system, state, h, Some(&guess)) {
         row.judge(way, judged(state, &step), &|| told("guess", state, &step));
     }
-    let (mut memory, mut at) = (L::Memory::default(), *state);
+    let (mut memory, mut at) = (L::RunMemory::default(), *state);
     for _ in 0..4 {
         row.of(way).asked += 1;
         let Ok(step) = advance::<L, R, N>(&mut memory, system, &at, h) else { break };
@@ -290,7 +290,7 @@ where
     let composition = Composition::kahan_li_6(Midpoint);
     let shares = *composition.shares();
     let mut run = system.by(composition, h).run(*state);
-    let mut memories: [L::Memory; 9] = std::array::from_fn(|_| L::Memory::default());
+    let mut memories: [L::RunMemory; 9] = std::array::from_fn(|_| L::RunMemory::default());
     let mut at = *state;
     for _ in 0..2 {
         let end = match run.next() {
@@ -383,6 +383,7 @@ pub fn study<S, const N: usize, const STAGES: usize>(draws: u32, seed: u64) -> R
 where
     S: Studied<N>
         + Discrete<Midpoint, N>
+        + BoundedFlow<Trapezoidal, N>
         + Discrete<Trapezoidal, N>
         + Discrete<OneSided, N>
         + ForcedLagrangian<N, Scalar = f64>,
@@ -398,7 +399,11 @@ where
 /// So many draws of one system whose derivatives are dual numbers, which the one-sided rule does not take.
 pub fn study_by_dual<S, const N: usize, const STAGES: usize>(draws: u32, seed: u64) -> Row
 where
-    S: Studied<N> + Discrete<Midpoint, N> + Discrete<Trapezoidal, N> + ForcedLagrangian<N, Scalar = f64>,
+    S: Studied<N>
+        + Discrete<Midpoint, N>
+        + BoundedFlow<Trapezoidal, N>
+        + Discrete<Trapezoidal, N>
+        + ForcedLagrangian<N, Scalar = f64>,
 {
     by_rules::<S, N, STAGES>(draws, seed, |_, _, _| ())
 }
@@ -410,7 +415,11 @@ fn by_rules<S, const N: usize, const STAGES: usize>(
     others: impl Fn(Draw<'_, S, N>, &mut StdRng, &mut Row),
 ) -> Row
 where
-    S: Studied<N> + Discrete<Midpoint, N> + Discrete<Trapezoidal, N> + ForcedLagrangian<N, Scalar = f64>,
+    S: Studied<N>
+        + Discrete<Midpoint, N>
+        + BoundedFlow<Trapezoidal, N>
+        + Discrete<Trapezoidal, N>
+        + ForcedLagrangian<N, Scalar = f64>,
 {
     let mut random = StdRng::seed_from_u64(seed);
     let mut row = Row::new(S::NAME, N);

@@ -160,8 +160,8 @@ fn past_a_conjugate_point_a_step_is_on_the_branch() {
         let certificate = system.by(Gauss::<6>, h).certificate(&state, &step).unwrap();
         assert!(certificate.on_the_branch_of_the_flow, "{h}: {certificate:?}");
         // Positive control of the case: ∂p0/∂v̄ has the sign of h/sin h.
-        let kernel = Discrete::<Gauss<6>, 1>::step_kernel(&system, &state.q, &step.velocity, h);
-        assert_eq!(kernel.matrix[0] > 0.0, h.sin() > 0.0, "{h}");
+        let segment = system.by(Gauss::<6>, h).segment(&state.q, &step.state.q).unwrap();
+        assert_eq!(segment.legendre_derivatives().unwrap().p0_by_q1[0] > 0.0, h.sin() > 0.0, "{h}");
     }
 }
 
@@ -197,7 +197,7 @@ fn follow<L, R: Copy, const N: usize>(
     h: f64,
     followed: &mut Followed,
 ) where
-    L: Discrete<R, N, Scalar = f64, Matrix = SMatrix<f64, N, N>>,
+    L: Discrete<R, N, Scalar = f64>,
 {
     let Some(velocity) = continued::<L, R, N>(system, state, h) else { return };
     let Ok(step) = system.by(rule, h).step(state) else { return };
@@ -207,7 +207,10 @@ fn follow<L, R: Copy, const N: usize>(
     let Ok(certificate) = system.by(rule, h).certificate(state, &step) else { return };
     assert!(certificate.on_the_branch_of_the_flow, "{h} {state:?} {certificate:?}");
     followed.on_the_branch += 1;
-    let matrix = system.step_kernel(&state.q, &step.velocity, h).matrix;
+    // Between two ends there may be another segment than the step's, or none that is found.
+    let Ok(segment) = system.by(rule, h).segment(&state.q, &step.state.q) else { return };
+    let Ok(k) = segment.legendre_derivatives() else { return };
+    let matrix = k.p0_by_q1;
     followed.past_a_conjugate_point += usize::from(is_negative(matrix));
 }
 

@@ -3,7 +3,7 @@
 
 use dalembert::hamilton_jacobi::HamiltonEquationsReport;
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::step::DiscreteRayleigh;
+use dalembert::step::{DiscreteRayleigh, Segment};
 use dalembert::{Discrete, Discretise, Midpoint, Trapezoidal, rayleigh_system};
 use dalembert_tests::damped_oscillator::{DAMPED, H, UNDAMPED};
 
@@ -60,6 +60,7 @@ where
 {
     let theory = system.by(rule, H).hamilton_jacobi();
     let momenta = system.by(rule, H).segment(&Q0, &Q1).unwrap().legendre_derivatives().unwrap().momenta;
+    let action = system.by(rule, H).segment(&Q0, &Q1).unwrap().discrete_lagrangian().unwrap();
     let v = (Q1 - Q0) / H;
     let plus = |q0: &SVector<f64, 2>, p1: &SVector<f64, 2>| {
         theory.discrete_hamiltonian_plus(q0, p1, Some(&v)).unwrap()
@@ -69,10 +70,8 @@ where
     };
     let (at_plus, at_minus) = (plus(&Q0, &momenta.p1), minus(&Q1, &momenta.p0));
     assert!((at_plus.eliminated - Q1).amax() < 1e-14 && (at_minus.eliminated - Q0).amax() < 1e-14);
-    assert!((at_plus.value - (momenta.p1.dot(&Q1) - system.discrete_lagrangian(&Q0, &Q1, H))).abs() < 1e-13);
-    assert!(
-        (at_minus.value - (-momenta.p0.dot(&Q0) - system.discrete_lagrangian(&Q0, &Q1, H))).abs() < 1e-13
-    );
+    assert!((at_plus.value - (momenta.p1.dot(&Q1) - action)).abs() < 1e-13);
+    assert!((at_minus.value - (-momenta.p0.dot(&Q0) - action)).abs() < 1e-13);
     let width = 1e-5;
     for i in 0..2 {
         let mut e: SVector<f64, 2> = vector![0.0, 0.0];
@@ -100,8 +99,8 @@ fn missing_terms<R: Copy, L>(system: &L, rule: R) -> [SVector<f64, 2>; 2]
 where
     L: Discrete<R, 2, Scalar = f64>,
 {
-    let k = system.by(rule, H).segment(&Q0, &Q1).unwrap().legendre_derivatives().unwrap();
-    let f = system.discrete_force(&Q0, &Q1, H);
+    let segment = system.by(rule, H).segment(&Q0, &Q1).unwrap();
+    let (k, f) = (segment.legendre_derivatives().unwrap(), segment.discrete_force().unwrap());
     let q1_by_q0 = -k.p1_by_q1.try_inverse().unwrap() * k.p1_by_q0;
     let q0_by_q1 = -k.p0_by_q0.try_inverse().unwrap() * k.p0_by_q1;
     [q1_by_q0.transpose() * f.plus, q0_by_q1.transpose() * f.minus]
@@ -167,7 +166,7 @@ where
 {
     let report = system.by(rule, H).hamilton_jacobi().hamilton_equations_rayleigh(&[Q0, Q1]).unwrap();
     assert!(corrected_hold(&report), "{report}");
-    let r = system.discrete_rayleigh_derivatives(&Q0, &Q1, H);
+    let r = system.discrete_rayleigh_derivatives(&Segment::between(&Q0, &Q1, H));
     let [[right_a, _], [right_b, _], [left_a, _], [left_b, _]] = misses(&report);
     // The wrong sign in the first equations misses by twice the term.
     let is_one_of =

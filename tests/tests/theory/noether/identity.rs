@@ -4,7 +4,7 @@ use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::noether::Generator;
 use dalembert::run::VelocityHistory;
 use dalembert::samples::{self, SampleError};
-use dalembert::step::{DiscreteForce, Momenta, StepKernel};
+use dalembert::step::{ClosedForm, DiscreteForce, Fused, Momenta, Segment, StepKernel};
 use dalembert::system::Derivatives;
 use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, Trapezoidal, VectorField, rayleigh_system};
 
@@ -84,33 +84,30 @@ impl Lagrangian<2> for Mistaken {
     }
 }
 
-impl Discrete<Midpoint, 2> for Mistaken {
+impl Fused<Midpoint, 2> for Mistaken {
     type Matrix = SMatrix<f64, 2, 2>;
     type Memory = VelocityHistory<f64, 2>;
-
-    fn discrete_lagrangian(&self, q0: &SVector<f64, 2>, q1: &SVector<f64, 2>, h: f64) -> f64 {
-        self.0.by(Midpoint, h).discrete_lagrangian(q0, q1)
+    fn step_kernel(&self, segment: &Segment<f64, 2>) -> StepKernel<f64, 2> {
+        Fused::<Midpoint, 2>::step_kernel(&self.0, segment)
     }
-    fn discrete_lagrangian_derivatives(
-        &self,
-        q0: &SVector<f64, 2>,
-        q1: &SVector<f64, 2>,
-        h: f64,
-    ) -> Derivatives<f64, 2> {
-        self.0.by(Midpoint, h).discrete_lagrangian_derivatives(q0, q1)
-    }
-    fn discrete_force(&self, q0: &SVector<f64, 2>, q1: &SVector<f64, 2>, h: f64) -> DiscreteForce<f64, 2> {
-        self.0.by(Midpoint, h).discrete_force(q0, q1)
-    }
-    fn step_kernel(&self, q0: &SVector<f64, 2>, v: &SVector<f64, 2>, h: f64) -> StepKernel<f64, 2> {
-        Discrete::<Midpoint, 2>::step_kernel(&self.0, q0, v, h)
-    }
-    fn momenta(&self, q0: &SVector<f64, 2>, v: &SVector<f64, 2>, h: f64) -> Momenta<f64, 2> {
-        let momenta = Discrete::<Midpoint, 2>::momenta(&self.0, q0, v, h);
+    fn momenta(&self, segment: &Segment<f64, 2>) -> Momenta<f64, 2> {
+        let momenta = Fused::<Midpoint, 2>::momenta(&self.0, segment);
         Momenta { p0: momenta.p0, p1: momenta.p1 * (1.0 + 1e-6) }
     }
-    fn segment_energy(&self, q0: &SVector<f64, 2>, q1: &SVector<f64, 2>, h: f64) -> f64 {
-        self.0.by(Midpoint, h).segment_energy(q0, q1)
+}
+
+impl ClosedForm<Midpoint, 2> for Mistaken {
+    fn discrete_lagrangian(&self, segment: &Segment<f64, 2>) -> f64 {
+        ClosedForm::<Midpoint, 2>::discrete_lagrangian(&self.0, segment)
+    }
+    fn discrete_lagrangian_derivatives(&self, segment: &Segment<f64, 2>) -> Derivatives<f64, 2> {
+        ClosedForm::<Midpoint, 2>::discrete_lagrangian_derivatives(&self.0, segment)
+    }
+    fn discrete_force(&self, segment: &Segment<f64, 2>) -> DiscreteForce<f64, 2> {
+        ClosedForm::<Midpoint, 2>::discrete_force(&self.0, segment)
+    }
+    fn segment_energy(&self, segment: &Segment<f64, 2>) -> f64 {
+        ClosedForm::<Midpoint, 2>::segment_energy(&self.0, segment)
     }
 }
 

@@ -3,7 +3,7 @@
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::noether::{Generator, Symmetry};
-use dalembert::samples::{self, Segment};
+use dalembert::samples::{self, Pair};
 use dalembert::step::Defect;
 use dalembert::{Discretise, Gauss, State, VectorField, rayleigh_system};
 use rand::rngs::StdRng;
@@ -27,7 +27,7 @@ struct Central {
     turning: f64,
 }
 
-fn segments() -> Vec<Segment<f64, 2>> {
+fn segments() -> Vec<Pair<f64, 2>> {
     samples::segments([-1.0, -1.0], [1.0, 1.0], [0.15, 0.15], 20)
 }
 
@@ -103,8 +103,8 @@ fn affine_generators_of_random_systems_leave_nothing_to_the_interior() {
         let mut any = || random.random_range(-0.6..0.6);
         let system = Mixed { a: any(), b: any(), c: any() + 0.7, d: any() };
         let xi = Generator::affine("any", matrix![any(), any(); any(), any()], vector![any(), any()]);
-        let segment = [Segment { q0: vector![any(), any()], q1: vector![any(), any()] }];
-        let segment = [Segment { q1: segment[0].q0 + segment[0].q1 * 0.3, ..segment[0] }];
+        let segment = [Pair { q0: vector![any(), any()], q1: vector![any(), any()] }];
+        let segment = [Pair { q1: segment[0].q0 + segment[0].q1 * 0.3, ..segment[0] }];
         macro_rules! adds_up {
             ($($stages:literal),+) => {$(
                 let found = system.by(Gauss::<$stages>, 0.2).noether().symmetry(&xi, &segment).unwrap();
@@ -148,7 +148,7 @@ fn what_a_field_that_is_not_affine_loses_the_rule_has_done() {
     let interior = |h: f64| {
         let by = HalfPlane {}.by(Gauss::<2>, h);
         let end = by.step(&start).unwrap().state;
-        let found = by.noether().symmetry(&xi, &[Segment { q0: start.q, q1: end.q }]).unwrap();
+        let found = by.noether().symmetry(&xi, &[Pair { q0: start.q, q1: end.q }]).unwrap();
         assert!(
             found.is_symmetry_of_lagrangian() && !found.is_conserved() && !found.interior.vanishes(),
             "{found}"
@@ -161,7 +161,7 @@ fn what_a_field_that_is_not_affine_loses_the_rule_has_done() {
     // Scaling is affine.
     let scaling = Generator::affine("scaling", matrix![1.0, 0.0; 0.0, 1.0], vector![0.0, 0.0]);
     let kept = HalfPlane {}.by(Gauss::<2>, 0.4).noether();
-    let kept = kept.symmetry(&scaling, &[Segment { q0: start.q, q1: vector![0.4, 1.1] }]).unwrap();
+    let kept = kept.symmetry(&scaling, &[Pair { q0: start.q, q1: vector![0.4, 1.1] }]).unwrap();
     assert!(kept.is_conserved() && kept.interior.vanishes(), "{kept}");
 }
 

@@ -3,7 +3,7 @@
 
 use dalembert::nalgebra::matrix;
 use dalembert::noether::{Generator, Subalgebra, SubalgebraError};
-use dalembert::samples::{SampleError, Segment};
+use dalembert::samples::{Pair, SampleError};
 use dalembert::{Discrete, Discretise, Midpoint, rayleigh_system, samples};
 
 /// A particle in a central potential, with drag along the axis n = (1, 2, 2)/3, and isotropic drag.
@@ -44,7 +44,7 @@ fn translations() -> Vec<Generator<f64, 3>> {
     ]
 }
 
-fn space() -> Vec<Segment<f64, 3>> {
+fn space() -> Vec<Pair<f64, 3>> {
     samples::segments([-1.0; 3], [1.0; 3], [0.3; 3], 60)
 }
 

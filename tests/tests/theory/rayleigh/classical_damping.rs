@@ -2,7 +2,7 @@
 //! has an R_d for every h, nonlinear or not. So have rules whose steps are then conformally symplectic; Gauss
 //! rules of two stages and more, and compositions of the midpoint rule, only where V is quadratic.
 
-use dalembert::derivative::{LegendreDerivatives, Linearization};
+use dalembert::derivative::LegendreDerivatives;
 use dalembert::exact::Exact;
 use dalembert::nalgebra::vector;
 use dalembert::rayleigh::RayleighStep;
@@ -51,7 +51,7 @@ fn exact(system: &Product, h: f64) -> RayleighStep {
         p1_by_q0: segment.p1.d1,
         p1_by_q1: segment.p1.d2,
     };
-    RayleighStep::of(&[Linearization::from_legendre(&legendre).unwrap().a], Some(1e-12)).unwrap()
+    RayleighStep::of(&[legendre.step_matrix().unwrap()], Some(1e-12)).unwrap()
 }
 
 fn of<M>(system: &Product, method: M, h: f64) -> RayleighStep

@@ -5,11 +5,11 @@ use dalembert::derivative::PhaseMatrix;
 use dalembert::hamilton_jacobi::Frame;
 use dalembert::nalgebra::{Matrix1, Matrix2, SVector, Vector2, vector};
 use dalembert::rayleigh::{ConformalStep, ConformalStepError, Proportion, ProportionError};
-use dalembert::samples::{SampleError, Segment, segments};
+use dalembert::samples::{self, SampleError, segments};
 use dalembert::step::{DiscreteRayleigh, Flow};
 use dalembert::{
-    Composition, Discrete, Discretise, Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, Splitting,
-    State, StepError, Trapezoidal, rayleigh_system,
+    Composition, Discretise, Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, Splitting, State,
+    StepError, Trapezoidal, rayleigh_system,
 };
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -111,7 +111,7 @@ where
     let states: Vec<State<f64, 2>> =
         (0..4).map(|_| State { q: vector![draw(), draw()], p: vector![draw(), draw()] }).collect();
     let by = pair.by(method, h);
-    let derivatives: Vec<_> = states.iter().map(|state| by.linearized_step(state).unwrap().1.a).collect();
+    let derivatives: Vec<_> = states.iter().map(|state| by.linearized_step(state).unwrap().1).collect();
     let mut opened = 0.0_f64;
     for a in &derivatives {
         for _ in 0..3 {
@@ -278,11 +278,10 @@ fn the_split_gives_back_r_d_and_generates_the_step() {
         let by = pair.by(rule, h);
         let segments = segments([-1.0; 2], [1.0; 2], [0.3; 2], 8);
         let split = by.proportional_split(&by.proportion(&segments).unwrap(), [0.1, -0.2]).unwrap();
-        for Segment { q0, q1 } in &segments {
-            let l = pair.discrete_lagrangian(q0, q1, h);
-            let r = pair.discrete_rayleigh(q0, q1, h);
+        for samples::Pair { q0, q1 } in &segments {
+            let (l, r) = (by.discrete_lagrangian(q0, q1), by.discrete_rayleigh(q0, q1));
             assert!((split.kappa() * l + split.alpha(q0) + split.beta(q1) - r).abs() < 1e-13);
-            let (minus, plus) = (pair.legendre_minus(q0, q1, h), pair.legendre_plus(q0, q1, h));
+            let (minus, plus) = (by.legendre_minus(q0, q1), by.legendre_plus(q0, q1));
             let slope = |of: &dyn Fn(Vector2<f64>) -> f64| {
                 SVector::<f64, 2>::from_fn(|i, _| {
                     let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
@@ -335,7 +334,7 @@ fn the_splitting_of_order_6_has_tanh_ah_times_l_d() {
             if miss.amax() < 1e-15 {
                 break;
             }
-            p += linear.a.q_by_p.try_inverse().unwrap() * miss;
+            p += linear.q_by_p.try_inverse().unwrap() * miss;
         }
         (p, by.step(&State { q: *q0, p }).unwrap().state.p)
     };
@@ -403,11 +402,11 @@ fn hypotheses_that_fail_have_names() {
         "{error}"
     );
     let proportion =
-        |segments: &[Segment<f64, 2>]| pair.by(Trapezoidal, 0.1).proportion(segments).unwrap_err();
+        |segments: &[samples::Pair<f64, 2>]| pair.by(Trapezoidal, 0.1).proportion(segments).unwrap_err();
     assert_eq!(proportion(&[]), SampleError::TooFew { given: 0, needed: 1 }.into());
-    let still = Segment::new([0.1, 0.2], [0.1, 0.2]);
+    let still = samples::Pair::new([0.1, 0.2], [0.1, 0.2]);
     assert_eq!(proportion(&[still]), SampleError::Uninformative { given: 1 }.into());
-    let lost = Segment::new([0.1, 0.2], [f64::NAN, 0.2]);
+    let lost = samples::Pair::new([0.1, 0.2], [f64::NAN, 0.2]);
     assert_eq!(proportion(&[lost]), SampleError::NonFinite { index: 0 }.into());
 
     // A force beside R, of which R_d knows nothing.
@@ -424,7 +423,7 @@ fn hypotheses_that_fail_have_names() {
             [-q[1], q[0]]
         }
     }
-    let moving = Segment::new([0.1, 0.2], [0.2, 0.1]);
+    let moving = samples::Pair::new([0.1, 0.2], [0.2, 0.1]);
     let error = Pushed.by(Midpoint, 0.1).proportion(&[moving]).unwrap_err();
     assert_eq!(error, ProportionError::OtherForce { index: 0 });
 }

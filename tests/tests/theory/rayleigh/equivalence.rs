@@ -4,10 +4,12 @@
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::rayleigh::Comparison;
 use dalembert::run::VelocityHistory;
-use dalembert::samples::{self, Segment};
-use dalembert::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
+use dalembert::samples::{self, Pair};
+use dalembert::step::{
+    ClosedForm, DiscreteForce, DiscreteForceDerivatives, Fused, Momenta, Segment, StepKernel,
+};
 use dalembert::system::Derivatives;
-use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, State, Trapezoidal, rayleigh_system};
+use dalembert::{Discretise, Lagrangian, Midpoint, State, Trapezoidal, rayleigh_system};
 
 type Vector = SVector<f64, 2>;
 
@@ -58,60 +60,61 @@ impl Lagrangian<2> for Regauged {
     }
 }
 
-impl Discrete<Midpoint, 2> for Regauged {
+impl Fused<Midpoint, 2> for Regauged {
     type Matrix = SMatrix<f64, 2, 2>;
     type Memory = VelocityHistory<f64, 2>;
-
-    fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-        self.system.by(Midpoint, h).discrete_lagrangian(q0, q1)
-            + (psi(q0).0 + phi1(q1).0 + phi0(q0).0 - psi(q1).0)
+    fn step_kernel(&self, segment: &Segment<f64, 2>) -> StepKernel<f64, 2> {
+        let kernel = Fused::<Midpoint, 2>::step_kernel(&self.system, segment);
+        StepKernel { p0: kernel.p0 - psi(&segment.q0).1 * 2.0, ..kernel }
     }
-    fn discrete_lagrangian_derivatives(&self, q0: &Vector, q1: &Vector, h: f64) -> Derivatives<f64, 2> {
-        let mut l = self.system.by(Midpoint, h).discrete_lagrangian_derivatives(q0, q1);
-        l.value = self.discrete_lagrangian(q0, q1, h);
-        l.d1 += psi(q0).1 + phi0(q0).1;
-        l.d2 += phi1(q1).1 - psi(q1).1;
-        l.d11 += psi(q0).2 + phi0(q0).2;
-        l.d22 += phi1(q1).2 - psi(q1).2;
-        l
-    }
-    fn discrete_force(&self, q0: &Vector, q1: &Vector, h: f64) -> DiscreteForce<f64, 2> {
-        let mut f = self.system.by(Midpoint, h).discrete_force(q0, q1);
-        f.minus += psi(q0).1 - phi0(q0).1;
-        f.plus -= phi1(q1).1 * self.sign + psi(q1).1;
-        f
-    }
-    fn discrete_force_derivatives(
-        &self,
-        q0: &Vector,
-        q1: &Vector,
-        h: f64,
-    ) -> DiscreteForceDerivatives<f64, 2> {
-        let mut f = Discrete::<Midpoint, 2>::discrete_force_derivatives(&self.system, q0, q1, h);
-        f.minus.d1 += psi(q0).2 - phi0(q0).2;
-        f.plus.d2 -= phi1(q1).2 * self.sign + psi(q1).2;
-        f
-    }
-    fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 2> {
-        let kernel = Discrete::<Midpoint, 2>::step_kernel(&self.system, q0, v, h);
-        StepKernel { p0: kernel.p0 - psi(q0).1 * 2.0, ..kernel }
-    }
-    fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 2> {
-        let momenta = Discrete::<Midpoint, 2>::momenta(&self.system, q0, v, h);
-        let q1 = q0 + v * h;
+    fn momenta(&self, segment: &Segment<f64, 2>) -> Momenta<f64, 2> {
+        let momenta = Fused::<Midpoint, 2>::momenta(&self.system, segment);
+        let q1 = segment.end();
         Momenta {
-            p0: momenta.p0 - psi(q0).1 * 2.0,
+            p0: momenta.p0 - psi(&segment.q0).1 * 2.0,
             p1: momenta.p1 - psi(&q1).1 * 2.0 + phi1(&q1).1 * (1.0 - self.sign),
         }
     }
-    fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-        self.system.by(Midpoint, h).segment_energy(q0, q1)
+}
+
+impl ClosedForm<Midpoint, 2> for Regauged {
+    fn discrete_lagrangian(&self, segment: &Segment<f64, 2>) -> f64 {
+        let q1 = &segment.end();
+        ClosedForm::<Midpoint, 2>::discrete_lagrangian(&self.system, segment)
+            + (psi(&segment.q0).0 + phi1(q1).0 + phi0(&segment.q0).0 - psi(q1).0)
+    }
+    fn discrete_lagrangian_derivatives(&self, segment: &Segment<f64, 2>) -> Derivatives<f64, 2> {
+        let q1 = &segment.end();
+        let mut l = ClosedForm::<Midpoint, 2>::discrete_lagrangian_derivatives(&self.system, segment);
+        l.value = self.discrete_lagrangian(segment);
+        l.d1 += psi(&segment.q0).1 + phi0(&segment.q0).1;
+        l.d2 += phi1(q1).1 - psi(q1).1;
+        l.d11 += psi(&segment.q0).2 + phi0(&segment.q0).2;
+        l.d22 += phi1(q1).2 - psi(q1).2;
+        l
+    }
+    fn discrete_force(&self, segment: &Segment<f64, 2>) -> DiscreteForce<f64, 2> {
+        let q1 = &segment.end();
+        let mut f = ClosedForm::<Midpoint, 2>::discrete_force(&self.system, segment);
+        f.minus += psi(&segment.q0).1 - phi0(&segment.q0).1;
+        f.plus -= phi1(q1).1 * self.sign + psi(q1).1;
+        f
+    }
+    fn discrete_force_derivatives(&self, segment: &Segment<f64, 2>) -> DiscreteForceDerivatives<f64, 2> {
+        let q1 = &segment.end();
+        let mut f = ClosedForm::<Midpoint, 2>::discrete_force_derivatives(&self.system, segment);
+        f.minus.d1 += psi(&segment.q0).2 - phi0(&segment.q0).2;
+        f.plus.d2 -= phi1(q1).2 * self.sign + psi(q1).2;
+        f
+    }
+    fn segment_energy(&self, segment: &Segment<f64, 2>) -> f64 {
+        ClosedForm::<Midpoint, 2>::segment_energy(&self.system, segment)
     }
 }
 
 const H: f64 = 0.1;
 
-fn plane() -> Vec<Segment<f64, 2>> {
+fn plane() -> Vec<Pair<f64, 2>> {
     samples::segments([-1.0; 2], [1.0; 2], [0.3; 2], if cfg!(debug_assertions) { 10 } else { 40 })
 }
 
@@ -147,10 +150,10 @@ fn the_printed_gauge_changes_the_equations() {
         Comparison::new((&system, Midpoint), (&printed, Midpoint), H, [0.2, -0.3]).check(&plane()).unwrap();
     assert!(!report.has_same_equations() && !report.is_gauge(), "{report}");
     // By 2 dφ1 at the middle configuration, exactly.
-    for Segment { q0, q1 } in plane() {
+    for Pair { q0, q1 } in plane() {
         let q2 = q1 + vector![0.1, 0.05];
-        let difference =
-            printed.del_residual(&q0, &q1, &q2, H) - system.by(Midpoint, H).del_residual(&q0, &q1, &q2);
+        let difference = printed.by(Midpoint, H).del_residual(&q0, &q1, &q2)
+            - system.by(Midpoint, H).del_residual(&q0, &q1, &q2);
         assert!((difference - phi1(&q1).1 * 2.0).amax() < 1e-12);
     }
 }

@@ -461,7 +461,7 @@ fn hypotheses_that_fail_have_names() {
     assert!((angle - 2.0 * (1.8_f64).atan2(1.0 - 3.6 * 3.6 / 12.0)).abs() < 1e-3, "{angle}");
     // From A alone it is not told: another system's.
     let (_, by) = spring.by(Gauss::<2>, 3.6).linearized_step(&states[0]).unwrap();
-    assert!(ModifiedLinearSystem::of(&by.a, 3.6, None).unwrap().mass[0] < 0.0);
+    assert!(ModifiedLinearSystem::of(&by, 3.6, None).unwrap().mass[0] < 0.0);
     // Under the midpoint rule a free mass rings for hr > 2m, and stands for hr = 2m.
     let of = |r: f64| Single { r, k: 0.0, quartic: 0.0 }.by(Midpoint, 1.0).modified_linear_system(&states);
     assert!(of(1.9).unwrap().is_dissipative());
@@ -478,7 +478,7 @@ fn hypotheses_that_fail_have_names() {
     assert_eq!(by.modified_linear_system(&states[..1]), Err(Error::TooFewStates));
     let lost = [states[0], State { q: vector![f64::NAN], p: vector![0.0] }];
     assert!(matches!(by.modified_linear_system(&lost), Err(Error::Step { sample: 1, .. })));
-    let mut a = by.linearized_step(&states[0]).unwrap().1.a;
+    let mut a = by.linearized_step(&states[0]).unwrap().1;
     assert_eq!(ModifiedLinearSystem::of(&a, 0.0, None), Err(Error::StepSize { h: 0.0 }));
     a.q_by_p[0] = f64::NAN;
     assert_eq!(ModifiedLinearSystem::of(&a, 0.1, None), Err(Error::NonFinite { sample: 0 }));

@@ -2,7 +2,7 @@
 //! prints (section 3.5).
 
 use dalembert::rayleigh::Potential;
-use dalembert::samples::{self, Segment};
+use dalembert::samples::{self, Pair};
 use dalembert::{Discretise, Midpoint, Trapezoidal, rayleigh_system};
 
 /// R depends on q, is not quadratic in v, and vanishes at v = 0.
@@ -37,7 +37,7 @@ impl ForceAlone {
     }
 }
 
-fn plane() -> Vec<Segment<f64, 2>> {
+fn plane() -> Vec<Pair<f64, 2>> {
     samples::segments([-1.0; 2], [1.0; 2], [0.3; 2], 40)
 }
 
@@ -45,7 +45,7 @@ fn plane() -> Vec<Segment<f64, 2>> {
 fn the_midpoint_potential_is_half_h_squared_times_r() {
     let system = ForceAlone { m: 1.3 };
     for h in [0.5, 0.1, 0.02] {
-        let potential = Potential::new(&system, Midpoint, h, Segment::new([0.3, 0.1], [0.3, 0.1]));
+        let potential = Potential::new(&system, Midpoint, h, Pair::new([0.3, 0.1], [0.3, 0.1]));
         let recovery = potential.check(&plane()).unwrap();
         assert!(recovery.exists(), "{recovery}");
         for (segment, value) in plane().iter().zip(&recovery.values) {
@@ -62,7 +62,7 @@ fn the_midpoint_potential_is_half_h_squared_times_r() {
 #[test]
 fn the_potential_of_a_general_rayleigh_function_is_recovered_for_both_rules() {
     let (system, h) = (Involved { m: 0.8 }, 0.2);
-    let base = Segment::new([0.2, -0.1], [0.2, -0.1]);
+    let base = Pair::new([0.2, -0.1], [0.2, -0.1]);
     let midpoint = Potential::new(&system, Midpoint, h, base).check(&plane()).unwrap();
     let trapezoidal = Potential::new(&system, Trapezoidal, h, base).check(&plane()).unwrap();
     assert!(midpoint.exists() && trapezoidal.exists(), "{midpoint}\n{trapezoidal}");

@@ -73,7 +73,7 @@ where
     L: Flow<M, 2, Scalar = f64>,
 {
     let state = State { q: vector![0.3, -0.4], p: vector![0.1, 0.2] };
-    let a: Matrix4<f64> = system.by(method, 0.4).linearized_step(&state).unwrap().1.a.assembled();
+    let a: Matrix4<f64> = system.by(method, 0.4).linearized_step(&state).unwrap().1.assembled();
     let b = Matrix4::new(c[0], c[1], 1.0, 0.0, c[1], c[2], 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0);
     let product = b * a;
     (product - product.transpose()).amax()

@@ -2,7 +2,7 @@
 
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::rayleigh::routh::{ReducedState, Routh, RouthError};
-use dalembert::samples::{Segment, segments};
+use dalembert::samples::{Pair, segments};
 use dalembert::step::{DiscreteRayleigh, Flow};
 use dalembert::{Discrete, Discretise, Gauss, Midpoint, State, Trapezoidal, rayleigh_system};
 use rand::rngs::StdRng;
@@ -56,7 +56,7 @@ const ARM: Arm = Arm {
 const H: f64 = 0.1;
 const THETA: usize = 1;
 
-fn samples() -> Vec<Segment<f64, 3>> {
+fn samples() -> Vec<Pair<f64, 3>> {
     segments(
         [0.5, -3.0, -0.5],
         [1.5, 3.0, 0.5],
@@ -89,7 +89,7 @@ where
     let by = arm.by(rule, H);
     // What is at rest says as much as another segment.
     let mut samples = samples();
-    samples.insert(0, Segment::new([1.0, 0.0, 0.3], [1.0, 0.0, 0.3]));
+    samples.insert(0, Pair::new([1.0, 0.0, 0.3], [1.0, 0.0, 0.3]));
     let routh = by.routh::<2>(THETA, &samples).unwrap();
     let whole: Vec<_> = by.run(*start).take(20).map(|step| step.unwrap().state).collect();
     let reduced: Vec<_> = routh.run(start).take(20).map(|state| state.unwrap()).collect();
@@ -213,7 +213,7 @@ fn hypotheses_that_fail_have_names() {
     let by = ARM.by(Midpoint, H);
     assert_eq!(by.routh::<2>(3, &samples()).unwrap_err(), RouthError::NoSuchCoordinate { cyclic: 3 });
     assert_eq!(by.routh::<2>(THETA, &[]).unwrap_err(), RouthError::Uninformative);
-    let one_shape = [Segment::new([1.0, 0.0, 0.0], [1.0, 0.1, 0.0])];
+    let one_shape = [Pair::new([1.0, 0.0, 0.0], [1.0, 0.1, 0.0])];
     assert_eq!(by.routh::<2>(THETA, &one_shape).unwrap_err(), RouthError::Uninformative);
     let routh = by.routh::<2>(THETA, &samples()).unwrap();
     let shape = State { q: vector![f64::NAN, 0.0], p: vector![0.0, 0.0] };

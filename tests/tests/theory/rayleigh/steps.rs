@@ -1,6 +1,6 @@
 //! Which steps have an R_d: the theorem's table, the leading coefficient, and the order barrier.
 
-use dalembert::derivative::{LegendreDerivatives, Linearization, PhaseMatrix};
+use dalembert::derivative::{LegendreDerivatives, PhaseMatrix};
 use dalembert::exact::Exact;
 use dalembert::nalgebra::{Matrix2, Matrix3, Matrix4, vector};
 use dalembert::rayleigh::{RayleighStep, RayleighStepError};
@@ -70,7 +70,7 @@ fn exact(system: &Pair, h: f64) -> PhaseMatrix<f64, 2> {
         p1_by_q0: segment.p1.d1,
         p1_by_q1: segment.p1.d2,
     };
-    Linearization::from_legendre(&legendre).unwrap().a
+    legendre.step_matrix().unwrap()
 }
 
 /// What is said of every method: its name, its order, and its verdict.
@@ -212,7 +212,7 @@ fn proportional_to_mass_damping_makes_steps_conformally_symplectic() {
             (omega[(i, i + 2)], omega[(i + 2, i)]) = (1.0, -1.0);
         }
         let state = State { q: vector![0.3, -0.4], p: vector![0.1, 0.2] };
-        let a: Matrix4<f64> = system.by(method, h).linearized_step(&state).unwrap().1.a.assembled();
+        let a: Matrix4<f64> = system.by(method, h).linearized_step(&state).unwrap().1.assembled();
         (a.transpose() * omega * a - omega * c).amax()
     }
     let (a, h, m) = (0.35, 0.3, [1.0, 1.7]);

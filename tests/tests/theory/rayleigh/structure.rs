@@ -4,10 +4,12 @@
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::rayleigh::{Potential, structure};
 use dalembert::run::VelocityHistory;
-use dalembert::samples::{self, Segment};
-use dalembert::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
+use dalembert::samples::{self, Pair};
+use dalembert::step::{
+    ClosedForm, DiscreteForce, DiscreteForceDerivatives, Fused, Momenta, Segment, StepKernel,
+};
 use dalembert::system::{CovectorDerivatives, Derivatives};
-use dalembert::{Discrete, Lagrangian, Midpoint, Trapezoidal, rayleigh_system};
+use dalembert::{Lagrangian, Midpoint, Trapezoidal, rayleigh_system};
 
 /// Linear drag with any matrix, f = −C v.
 #[derive(Clone, Copy)]
@@ -25,7 +27,7 @@ impl LinearDrag {
     }
 }
 
-fn plane() -> Vec<Segment<f64, 2>> {
+fn plane() -> Vec<Pair<f64, 2>> {
     samples::segments([-1.0; 2], [1.0; 2], [0.3; 2], 50)
 }
 
@@ -52,14 +54,17 @@ fn the_printed_condition_lets_a_force_without_potential_pass() {
     let (c12, c21) = (0.3, -0.3);
     let drag = LinearDrag { c: [[1.0, c12], [c21, 2.0]] };
     for segment in plane() {
-        let f = Discrete::<Midpoint, 2>::discrete_force_derivatives(&drag, &segment.q0, &segment.q1, 0.1);
+        let f = ClosedForm::<Midpoint, 2>::discrete_force_derivatives(
+            &drag,
+            &Segment::between(&segment.q0, &segment.q1, 0.1),
+        );
         assert!((f.plus.d1 + f.minus.d2).amax() < 1e-15, "the printed condition");
         assert!((f.minus.d1 - f.minus.d1.transpose()).amax() > 0.2, "the missing condition");
     }
     // Straight to (q0, q1) = (e1 + e2, 0) and along the edges by way of e1: a triangle of area ½.
     let origin = SVector::zeros();
-    let potential = Potential::new(&drag, Midpoint, 0.1, Segment::new(origin, origin));
-    let recovery = potential.check(&[Segment::new(vector![1.0, 1.0], origin)]).unwrap();
+    let potential = Potential::new(&drag, Midpoint, 0.1, Pair::new(origin, origin));
+    let recovery = potential.check(&[Pair::new(vector![1.0, 1.0], origin)]).unwrap();
     let expected = -0.5 * (c21 - c12) * 0.5;
     assert!((recovery.path_dependence.value - expected).abs() < 1e-15, "{recovery}");
     assert!(!recovery.exists() && !recovery.path_dependence.vanishes(), "{recovery}");
@@ -112,42 +117,34 @@ impl<G> Lagrangian<2> for AtStart<G> {
     }
 }
 
-impl<G: Covector> Discrete<Midpoint, 2> for AtStart<G> {
+impl<G: Covector> Fused<Midpoint, 2> for AtStart<G> {
     type Matrix = SMatrix<f64, 2, 2>;
     type Memory = VelocityHistory<f64, 2>;
-
-    fn discrete_lagrangian(&self, q0: &SVector<f64, 2>, q1: &SVector<f64, 2>, h: f64) -> f64 {
-        (q1 - q0).norm_squared() / (2.0 * h)
+    fn step_kernel(&self, segment: &Segment<f64, 2>) -> StepKernel<f64, 2> {
+        StepKernel { p0: segment.v - self.0.at(&segment.q0).value, matrix: SMatrix::identity() }
     }
-    fn discrete_lagrangian_derivatives(
-        &self,
-        q0: &SVector<f64, 2>,
-        q1: &SVector<f64, 2>,
-        h: f64,
-    ) -> Derivatives<f64, 2> {
-        let (v, m) = ((q1 - q0) / h, SMatrix::identity() / h);
-        let value = self.discrete_lagrangian(q0, q1, h);
+    fn momenta(&self, segment: &Segment<f64, 2>) -> Momenta<f64, 2> {
+        Momenta { p0: segment.v - self.0.at(&segment.q0).value, p1: segment.v }
+    }
+}
+
+impl<G: Covector> ClosedForm<Midpoint, 2> for AtStart<G> {
+    fn discrete_lagrangian(&self, segment: &Segment<f64, 2>) -> f64 {
+        segment.v.norm_squared() * (segment.h / 2.0)
+    }
+    fn discrete_lagrangian_derivatives(&self, segment: &Segment<f64, 2>) -> Derivatives<f64, 2> {
+        let (v, m) = (segment.v, SMatrix::identity() / segment.h);
+        let value = self.discrete_lagrangian(segment);
         Derivatives { value, d1: -v, d2: v, d11: m, d12: -m, d22: m }
     }
-    fn step_kernel(&self, q0: &SVector<f64, 2>, v: &SVector<f64, 2>, _h: f64) -> StepKernel<f64, 2> {
-        StepKernel { p0: v - self.0.at(q0).value, matrix: SMatrix::identity() }
+    fn segment_energy(&self, segment: &Segment<f64, 2>) -> f64 {
+        self.discrete_lagrangian(segment) / segment.h
     }
-    fn momenta(&self, q0: &SVector<f64, 2>, v: &SVector<f64, 2>, _h: f64) -> Momenta<f64, 2> {
-        Momenta { p0: v - self.0.at(q0).value, p1: *v }
+    fn discrete_force(&self, segment: &Segment<f64, 2>) -> DiscreteForce<f64, 2> {
+        DiscreteForce { minus: self.0.at(&segment.q0).value, plus: SVector::zeros() }
     }
-    fn segment_energy(&self, q0: &SVector<f64, 2>, q1: &SVector<f64, 2>, h: f64) -> f64 {
-        self.discrete_lagrangian(q0, q1, h) / h
-    }
-    fn discrete_force(&self, q0: &SVector<f64, 2>, _q1: &SVector<f64, 2>, _h: f64) -> DiscreteForce<f64, 2> {
-        DiscreteForce { minus: self.0.at(q0).value, plus: SVector::zeros() }
-    }
-    fn discrete_force_derivatives(
-        &self,
-        q0: &SVector<f64, 2>,
-        _q1: &SVector<f64, 2>,
-        _h: f64,
-    ) -> DiscreteForceDerivatives<f64, 2> {
-        DiscreteForceDerivatives { minus: self.0.at(q0), plus: CovectorDerivatives::zero() }
+    fn discrete_force_derivatives(&self, segment: &Segment<f64, 2>) -> DiscreteForceDerivatives<f64, 2> {
+        DiscreteForceDerivatives { minus: self.0.at(&segment.q0), plus: CovectorDerivatives::zero() }
     }
 }
 
@@ -191,15 +188,15 @@ fn the_mixed_condition_alone_is_not_enough() {
 /// The conditions are local: around a hole they hold without a potential, and the two paths show it.
 #[test]
 fn around_a_hole_the_paths_tell() {
-    let start = Segment::new(vector![1.0, 0.1], vector![0.0, 0.0]);
+    let start = Pair::new(vector![1.0, 0.1], vector![0.0, 0.0]);
     let potential = Potential::new(&AtStart(Vortex), Midpoint, 0.1, start);
     // Straight across above the origin, or along the edges by way of (−1, 0.1), (−1, −0.3): the same
     // half-plane x < 0.
-    let same_side = [Segment::new(vector![-1.0, 0.4], vector![0.2, 0.2])];
+    let same_side = [Pair::new(vector![-1.0, 0.4], vector![0.2, 0.2])];
     let recovery = potential.check(&same_side).unwrap();
     assert!(recovery.exists(), "{recovery}");
     // The straight line passes below the origin, the edges above and around it.
-    let around = [Segment::new(vector![-1.0, -0.3], vector![0.2, 0.2])];
+    let around = [Pair::new(vector![-1.0, -0.3], vector![0.2, 0.2])];
     let recovery = potential.check(&around).unwrap();
     assert!(recovery.structure.is_rayleigh() && !recovery.exists(), "{recovery}");
     let winding = recovery.path_dependence.value.abs() / std::f64::consts::TAU;

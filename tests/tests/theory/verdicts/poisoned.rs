@@ -4,7 +4,7 @@ use dalembert::exact::{Exact, ExactError, ExistenceVerdict};
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::noether::Generator;
 use dalembert::rayleigh::{Comparison, Condition, Potential, Resplit, dissipation, structure};
-use dalembert::samples::{Finding, Segment, TangentPoint, Tolerance, segments, tangent_points};
+use dalembert::samples::{Finding, Pair, TangentPoint, Tolerance, segments, tangent_points};
 use dalembert::step::Step;
 use dalembert::{Discrete, Discretise, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
 
@@ -39,7 +39,7 @@ fn right(_q: [f64; 2], v: [f64; 2], c: f64) -> (f64, f64) {
 const H: f64 = 0.1;
 const ROUNDING: f64 = 1024.0 * f64::EPSILON;
 
-type Segments = Vec<Segment<f64, 2>>;
+type Segments = Vec<Pair<f64, 2>>;
 
 /// Segments of a set; the more, the longer each takes without optimisation.
 const COUNT: usize = if cfg!(debug_assertions) { 8 } else { 24 };
@@ -52,7 +52,7 @@ fn clean() -> Segments {
 type Answers = Vec<(&'static str, bool)>;
 
 /// Every verdict on segments. Errors are no yes.
-fn answers<L>(system: &L, claims: &L, segments: &[Segment<f64, 2>], h: f64, relative: f64) -> Answers
+fn answers<L>(system: &L, claims: &L, segments: &[Pair<f64, 2>], h: f64, relative: f64) -> Answers
 where
     L: Discrete<Midpoint, 2, Scalar = f64> + Discrete<Trapezoidal, 2>,
 {
@@ -96,7 +96,7 @@ where
                 ("f_d is Rayleigh", found.to_string().contains("f_d is Rayleigh")),
             ]);
         }
-        let base = Segment::new([0.13, -0.2], [0.13, -0.2]);
+        let base = Pair::new([0.13, -0.2], [0.13, -0.2]);
         if let Ok(found) = Potential::new(system, Midpoint, h, base).check(segments) {
             answers.push(("recovery", found.exists() || found.path_dependence.vanishes()));
         }
@@ -115,10 +115,10 @@ where
 /// Ways to poison samples.
 fn poisoned() -> Vec<(String, Segments)> {
     let mut samples: Vec<(String, Segments)> = vec![("none".into(), vec![])];
-    let resting = |at: [f64; 2]| Segment::new(at, at);
+    let resting = |at: [f64; 2]| Pair::new(at, at);
     samples.push((
         "at rest".into(),
-        clean().iter().map(|segment| Segment { q1: segment.q0, ..*segment }).collect(),
+        clean().iter().map(|segment| Pair { q1: segment.q0, ..*segment }).collect(),
     ));
     samples.push(("at rest at 0".into(), vec![resting([0.0; 2]); 12]));
     samples.push(("one, many times".into(), vec![clean()[3]; COUNT]));
@@ -138,7 +138,7 @@ fn poisoned() -> Vec<(String, Segments)> {
         1e-160,
     ] {
         for end in 0..2 {
-            let put = |segment: &mut Segment<f64, 2>| match end {
+            let put = |segment: &mut Pair<f64, 2>| match end {
                 0 => segment.q0[0] = poison,
                 _ => segment.q1[1] = poison,
             };
@@ -151,8 +151,7 @@ fn poisoned() -> Vec<(String, Segments)> {
         }
         let scaled = |scale: f64| {
             let all = clean().into_iter();
-            all.map(|segment| Segment { q0: segment.q0 * scale, q1: segment.q1 * scale })
-                .collect::<Segments>()
+            all.map(|segment| Pair { q0: segment.q0 * scale, q1: segment.q1 * scale }).collect::<Segments>()
         };
         samples.push((format!("all times {poison:e}"), scaled(poison)));
         let mut one = clean();

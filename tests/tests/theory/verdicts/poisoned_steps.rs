@@ -4,7 +4,7 @@ use dalembert::derivative::PhaseMatrix;
 use dalembert::nalgebra::vector;
 use dalembert::rayleigh::modified::ModifiedLinearSystem;
 use dalembert::rayleigh::{ConformalStep, RayleighStep};
-use dalembert::samples::{Segment, segments};
+use dalembert::samples::{Pair, segments};
 use dalembert::{Discretise, Midpoint, State, Trapezoidal, rayleigh_system};
 
 /// Linear, and nothing that is asked of it holds: friction that drives, and unevenly; a force that
@@ -51,7 +51,7 @@ fn states() -> [State<f64, 2>; 2] {
 }
 
 fn derivative(system: &Driven, h: f64) -> Derivative {
-    system.by(Trapezoidal, h).linearized_step(&states()[0]).unwrap().1.a
+    system.by(Trapezoidal, h).linearized_step(&states()[0]).unwrap().1
 }
 
 /// Names and answers. Errors are no yes.
@@ -177,7 +177,7 @@ fn turning(q: [f64; 2], v: [f64; 2], friction: f64, spring: f64) -> (f64, f64) {
 fn poisoned_segments_get_no_yes() {
     let clean = segments([0.5, -1.0], [1.5, 1.0], [0.1, 0.2], 12);
     let wrong = [Turning { friction: 0.4, spring: 0.0 }, Turning { friction: 0.0, spring: 0.3 }];
-    let answers = |system: &Turning, h: f64, segments: &[Segment<f64, 2>]| {
+    let answers = |system: &Turning, h: f64, segments: &[Pair<f64, 2>]| {
         let by = system.by(Midpoint, h);
         [by.routh::<1>(1, segments).is_ok(), by.proportion(segments).is_ok_and(|found| found.is_constant())]
     };
@@ -192,7 +192,7 @@ fn poisoned_segments_get_no_yes() {
         }
         for poison in POISON {
             for part in 0..4 {
-                let put = |segment: &mut Segment<f64, 2>| match part {
+                let put = |segment: &mut Pair<f64, 2>| match part {
                     0 => segment.q0[0] = poison,
                     1 => segment.q0[1] = poison,
                     2 => segment.q1[0] = poison,
@@ -208,7 +208,7 @@ fn poisoned_segments_get_no_yes() {
             }
         }
     }
-    for none in [vec![], vec![Segment::new([1.0, 0.0], [1.0, 0.0])], vec![clean[0]; 5]] {
+    for none in [vec![], vec![Pair::new([1.0, 0.0], [1.0, 0.0])], vec![clean[0]; 5]] {
         assert!(wrong.iter().all(|system| !answers(system, H, &none)[0]));
     }
 }

@@ -7,7 +7,7 @@ use dalembert::derivative::PhaseMatrix;
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::rayleigh::ConformalStep;
 use dalembert::rayleigh::modified::ModifiedLinearSystem;
-use dalembert::samples::Segment;
+use dalembert::samples;
 use dalembert::step::DiscreteRayleigh;
 use dalembert::{Discretise, Midpoint, State, Trapezoidal, rayleigh_system};
 use rand::rngs::StdRng;
@@ -219,9 +219,10 @@ where
     R: Copy,
 {
     let by = system.by(rule, H);
-    let segments: Vec<_> = states.iter().map(|state| Segment::new(state.q, state.q + state.p * H)).collect();
+    let segments: Vec<_> =
+        states.iter().map(|state| samples::Pair::new(state.q, state.q + state.p * H)).collect();
     let all: Vec<PhaseMatrix<f64, N>> =
-        states.iter().map(|state| by.linearized_step(state).unwrap().1.a).collect();
+        states.iter().map(|state| by.linearized_step(state).unwrap().1).collect();
     let is_one = all.iter().all(|a| {
         let apart = |x: &SMatrix<f64, N, N>, y: &SMatrix<f64, N, N>| (x - y).amax() < 1e-13;
         apart(&a.q_by_q, &all[0].q_by_q) && apart(&a.p_by_q, &all[0].p_by_q)

@@ -5,7 +5,7 @@ use dalembert::derivative::PhaseMatrix;
 use dalembert::nalgebra::{Matrix1, SVector, vector};
 use dalembert::noether::Generator;
 use dalembert::rayleigh::{ConformalStep, structure};
-use dalembert::samples::{Finding, Segment, Tolerance, Verdict, segments};
+use dalembert::samples::{Finding, Pair, Tolerance, Verdict, segments};
 use dalembert::step::Flow;
 use dalembert::{Discretise, Lagrangian, Midpoint, State, Trapezoidal, rayleigh_system};
 
@@ -133,10 +133,10 @@ fn views_are_asked_at_several_times() {
 #[test]
 fn one_sided_proportions_get_no_yes() {
     let (pendulum, oscillator) = (Pendulum { r: 0.3 }, Oscillator { r: 0.3 });
-    let constant = |system: &Pendulum, segments: &[Segment<f64, 1>]| {
+    let constant = |system: &Pendulum, segments: &[Pair<f64, 1>]| {
         system.by(Midpoint, H).proportion(segments).is_ok_and(|found| found.is_constant())
     };
-    let segment = |q: f64, d: f64| Segment::new([q], [q + d]);
+    let segment = |q: f64, d: f64| Pair::new([q], [q + d]);
     for poor in [
         [segment(0.5, 0.02); 2],
         [segment(0.5, 0.02), segment(0.5 + 1e-12, 0.02)],
@@ -176,11 +176,11 @@ impl Slowing {
 
 #[test]
 fn reductions_are_seen_at_several_shapes_and_times() {
-    let segment = |x: f64, d: f64| Segment::new([x, 0.2], [x + d, 0.3]);
+    let segment = |x: f64, d: f64| Pair::new([x, 0.2], [x + d, 0.3]);
     let good = [segment(0.5, 0.02), segment(0.9, 0.05), segment(-0.7, 0.01)];
     for (even, friction, reducible) in [(0.0, 0.4, false), (1.0, 0.4, true), (0.0, 0.0, true)] {
         let by = Turning { friction, even };
-        let reduces = |segments: &[Segment<f64, 2>]| by.by(Midpoint, H).routh::<1>(1, segments).is_ok();
+        let reduces = |segments: &[Pair<f64, 2>]| by.by(Midpoint, H).routh::<1>(1, segments).is_ok();
         assert_eq!(reduces(&good), reducible);
         for poor in [
             [segment(0.5, 0.02); 2],
@@ -216,7 +216,7 @@ fn segments_that_hardly_move_tell_no_symmetry() {
     let at = SVector::<f64, 2>::new(0.7, -0.4);
     for size in [0.0, 1e-17, 1e-16, 3e-15, 1e-13] {
         let hardly: Vec<_> =
-            (0..6).map(|k| Segment::new(at, at + vector![size, -0.3 * size] * f64::from(k))).collect();
+            (0..6).map(|k| Pair::new(at, at + vector![size, -0.3 * size] * f64::from(k))).collect();
         let judged = noether.symmetry(&rotation, &hardly);
         assert!(!judged.is_ok_and(|found| found.is_symmetry_of_lagrangian()), "{size:e}");
         let found = noether.subalgebra(&[rotation.clone(), Generator::translation("x", [1.0, 0.0])], &hardly);

@@ -11,7 +11,7 @@ use dalembert::nalgebra::{Matrix2, SVector, Vector2, vector};
 use dalembert::noether::Generator;
 use dalembert::rayleigh::{Comparison, Potential, Resplit};
 use dalembert::run::Stop;
-use dalembert::samples::{Segment, region, segments};
+use dalembert::samples::{Pair, region, segments};
 use dalembert::{Discretise, Midpoint, State, Trapezoidal, rayleigh_system};
 
 /// A spring along the first coordinate, none along the second; friction as the inertia.
@@ -48,7 +48,7 @@ impl GeneratingFamily<2> for Lines {
 
 /// Samples of all kinds, so many of each.
 struct Samples {
-    segments: Vec<Segment<f64, 2>>,
+    segments: Vec<Pair<f64, 2>>,
     states: Vec<State<f64, 2>>,
     points: Vec<SVector<f64, 2>>,
     count: usize,
@@ -57,7 +57,7 @@ struct Samples {
 impl Samples {
     fn new(count: usize) -> Self {
         let segments = segments([-1.0; 2], [1.0; 2], [0.2; 2], count);
-        let state = |segment: &Segment<f64, 2>| State { q: segment.q0, p: (segment.q1 - segment.q0) / H };
+        let state = |segment: &Pair<f64, 2>| State { q: segment.q0, p: (segment.q1 - segment.q0) / H };
         let states = segments.iter().map(state).collect();
         Self { segments, states, points: region([-1.0; 2], [1.0; 2], count), count }
     }
@@ -87,7 +87,7 @@ const CHECKS: [Check; 23] = [
         checked(CART.by(Midpoint, H).stopped_by(stop).rayleigh_structure(&samples.segments))
     }),
     ("Potential::check", |samples, stop| {
-        let base = Segment::new([0.1; 2], [0.0; 2]);
+        let base = Pair::new([0.1; 2], [0.0; 2]);
         checked(Potential::new(&CART, Midpoint, H, base).stopped_by(stop).check(&samples.segments))
     }),
     ("Resplit::check", |samples, stop| {

@@ -5,7 +5,7 @@ use dalembert::hamilton_jacobi::Section;
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::noether::Generator;
 use dalembert::rayleigh::{Comparison, Potential, Resplit, structure};
-use dalembert::samples::{Segment, segments};
+use dalembert::samples::{Pair, segments};
 use dalembert::{Discrete, Discretise, Midpoint, State, Trapezoidal, rayleigh_system};
 use dalembert_tests::sections::Constant;
 
@@ -112,7 +112,10 @@ where
     let q: Vec<_> = states.iter().map(|state| state.q).collect();
     for (k, q) in q.windows(3).enumerate() {
         let here = Swing.at_time(T0 + H * k as f64);
-        let residual = here.del_residual(&q[0], &q[1], &q[2], H);
+        let later = Swing.at_time(T0 + H * k as f64 + H);
+        let before = here.by(rule, H).segment(&q[0], &q[1]).unwrap().momenta().unwrap();
+        let after = later.by(rule, H).segment(&q[1], &q[2]).unwrap().momenta().unwrap();
+        let residual = before.p1 - after.p0;
         assert!(residual.amax() < 1e-14, "{k}: {residual}");
         let step = here.by(rule, H).step_configurations(&q[0], &q[1]).unwrap();
         assert!((step.state.q - q[2]).amax() < 1e-13, "{k}");
@@ -122,7 +125,7 @@ where
     let run = view.by(rule, H).run(start());
     let account = noether.balance(&generator, &start(), run.take(200)).unwrap();
     assert!(account.is_balanced() && account.worst_step.0 < 1e-13, "{account}");
-    let judged = noether.symmetry(&generator, &Segment::along(&q)).unwrap();
+    let judged = noether.symmetry(&generator, &Pair::along(&q)).unwrap();
     assert!(judged.is_consistent() && !judged.is_conserved(), "{judged}");
 
     let theory = view.by(rule, H).hamilton_jacobi();
@@ -145,7 +148,10 @@ where
     let action: f64 = q
         .windows(2)
         .enumerate()
-        .map(|(k, q)| Swing.at_time(T0 + H * k as f64).discrete_lagrangian(&q[0], &q[1], H))
+        .map(|(k, q)| {
+            let here = Swing.at_time(T0 + H * k as f64);
+            here.by(rule, H).segment(&q[0], &q[1]).unwrap().discrete_lagrangian().unwrap()
+        })
         .sum();
     assert!((theory.discrete_action(&q) - action).abs() < 1e-13);
 }
@@ -186,7 +192,7 @@ fn what_begins_later_is_seen() {
         let judged = view.by(Midpoint, h).noether().symmetry(&along, samples).unwrap();
         assert_eq!(judged.is_conserved(), is_free, "{judged}");
         assert_eq!(structure(&view, Midpoint, h, samples).unwrap().is_rayleigh(), is_free);
-        let base = Segment::new([0.1; 2], [0.0; 2]);
+        let base = Pair::new([0.1; 2], [0.0; 2]);
         assert_eq!(Potential::new(&view, Midpoint, h, base).check(samples).unwrap().exists(), is_free);
         assert_eq!(Resplit::new(&view, Midpoint, h, [0.1; 2]).check(samples).unwrap().exists(), is_free);
         let other = Late.at_time(-100.0);

@@ -43,7 +43,7 @@ impl Code<'_> {
             let apart = fields.read_by(line, is_timed, "now");
             let of_fields = parameter("fields", apart.is_some());
             let name = format_ident!("{name}");
-            let body = self.at_midpoint(line, &quote!(now), result);
+            let body = self.at_midpoint(line, &quote!(now), unused, result);
             quote! {
                 #[inline(always)]
                 fn #name<const #members: usize>(

@@ -85,7 +85,7 @@ where
         }
         let derivative = |share: f64| {
             let by = self.with_step(self.step_size() * L::Scalar::constant(share));
-            by.linearized_step(first).map(|(_, by)| by.a).map_err(|error| failed((0, error)))
+            by.linearized_step(first).map(|(_, a)| a).map_err(|error| failed((0, error)))
         };
         let modified = ModifiedLinearSystem::of(a, self.step_size().widen(), None)?;
         require_principal(|share| eigenvalues(&whole(&widened(&derivative(share)?))))?;
@@ -103,8 +103,8 @@ where
         let failed = |error| ModifiedLinearSystemError::Step { sample: 0, error };
         let at = |k: usize| -> Result<_, ModifiedLinearSystemError> {
             let taken = at_segment(self, k, |by| by.linearized_step(state)).map_err(Unasked::from)?;
-            let (step, linear) = taken.map_err(failed)?;
-            let a = widened(&linear.a);
+            let (step, a) = taken.map_err(failed)?;
+            let a = widened(&a);
             require_finite(&a, 0)?;
             let (q, p) = (step.state.q.map(Scalar::widen), step.state.p.map(Scalar::widen));
             Ok((assembled(&rescaled(&a, s)), (q.component_mul(s), p.component_div(s))))

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
-use crate::theory::samples::Segment;
+use crate::theory::samples::Pair;
 
 /// `vector` with `entry` at `index`.
 pub(super) fn with<S: Scalar, const N: usize, const K: usize>(
@@ -28,8 +28,8 @@ pub(super) fn without<S: Scalar, const N: usize, const K: usize>(
 
 /// The segment of x.
 pub(super) fn shape<S: Scalar, const N: usize, const K: usize>(
-    segment: &Segment<S, N>,
+    segment: &Pair<S, N>,
     index: usize,
-) -> Segment<S, K> {
-    Segment { q0: without(&segment.q0, index), q1: without(&segment.q1, index) }
+) -> Pair<S, K> {
+    Pair { q0: without(&segment.q0, index), q1: without(&segment.q1, index) }
 }

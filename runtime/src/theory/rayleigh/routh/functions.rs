@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use super::coordinates::with;
-use crate::step::DiscreteRayleigh;
+use crate::step::{DiscreteRayleigh, Segment};
 use crate::theory::rayleigh::routh::{Routh, RouthError};
 
 /// The functions of the reduced system.
@@ -22,7 +22,8 @@ where
         let found = self.segment(x0, &((x1 - x0) / h), momentum, nalgebra::zero());
         let (_, rate) = found.map_err(RouthError::NoAngle)?;
         let (q0, q1) = (with(x0, nalgebra::zero(), theta), with(x1, rate * h, theta));
-        Ok([system.modified_plus(&q0, &q1, h), system.modified_minus(&q0, &q1, h), rate * h])
+        let segment = Segment::between(&q0, &q1, h);
+        Ok([system.modified_plus(&segment), system.modified_minus(&segment), rate * h])
     }
 
     /// L̂⁺(x0, x1; μ) = L_d⁺ − μΔ.

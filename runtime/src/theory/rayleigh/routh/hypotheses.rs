@@ -6,7 +6,7 @@ use crate::numbers::Scalar;
 use crate::step::{Discrete, LegendreDerivatives};
 use crate::system::is_timed;
 use crate::theory::rayleigh::routh::{Routh, RouthError};
-use crate::theory::samples::{Segment, at_segment};
+use crate::theory::samples::{Pair, at_segment};
 use crate::theory::verdict::{Finding, Tolerance};
 
 /// Hypotheses on one segment.
@@ -18,14 +18,14 @@ where
     pub(super) fn require_no_time(
         &self,
         sample: usize,
-        segment: &Segment<L::Scalar, N>,
+        segment: &Pair<L::Scalar, N>,
     ) -> Result<(), RouthError> {
         if !is_timed(self.by.system) {
             return Ok(());
         }
         let momenta = |k: usize| {
             at_segment(&self.by, k, |by| {
-                let k = by.system().legendre_derivatives(&segment.q0, &segment.q1, by.step_size());
+                let k = by.objects(&segment.q0, &segment.q1).legendre();
                 [k.momenta.p0, k.momenta.p1].map(|p| p.map(Scalar::widen))
             })
         };
@@ -44,11 +44,9 @@ where
     }
 
     /// Whether θ has a momentum on the segment, where the conditions hold.
-    pub(super) fn check(&self, sample: usize, segment: &Segment<L::Scalar, N>) -> Result<bool, RouthError> {
+    pub(super) fn check(&self, sample: usize, segment: &Pair<L::Scalar, N>) -> Result<bool, RouthError> {
         let theta = self.cyclic;
-        let k = at_segment(&self.by, 0, |by| {
-            by.system().legendre_derivatives(&segment.q0, &segment.q1, by.step_size())
-        })?;
+        let k = at_segment(&self.by, 0, |by| by.objects(&segment.q0, &segment.q1).legendre())?;
         for (momentum, by_q0, by_q1) in
             [(k.momenta.p0, k.p0_by_q0, k.p0_by_q1), (k.momenta.p1, k.p1_by_q0, k.p1_by_q1)]
         {

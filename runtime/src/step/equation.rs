@@ -1,0 +1,144 @@
+//! The equation of a step as its solver asks it.
+
+use core::marker::PhantomData;
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::numbers::{NewtonMatrix, Scalar};
+use crate::step::cause::cause_of;
+use crate::step::{Discrete, Fused, Momenta, Segment, StepError, StepKernel};
+use crate::system::derivatives_apart;
+
+/// The kind of the equation p0(q, v) = p, as known before it is solved.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Equation {
+    /// Linear in v: the first correction leads to the root.
+    Linear,
+    /// Any equation.
+    General,
+}
+
+/// The equation p0(q0, v̄) = p of a step, with the functions that its solver asks for.
+pub(crate) trait StepEquation<S: Scalar, const N: usize> {
+    /// The form of the Newton matrix.
+    type Matrix: NewtonMatrix<S, N>;
+
+    /// p0 and ∂p0/∂v̄.
+    fn kernel(&self, segment: &Segment<S, N>) -> StepKernel<S, N, Self::Matrix>;
+
+    /// p0 and p1.
+    fn momenta(&self, segment: &Segment<S, N>) -> Momenta<S, N>;
+
+    /// The mass that the velocity has in p0: the metric that tells which of two velocities is longer.
+    fn inertia(&self, q: &SVector<S, N>, v: &SVector<S, N>) -> SMatrix<S, N, N>;
+
+    /// Sizes of the terms that cancel in p0.
+    fn cancelling(&self, segment: &Segment<S, N>) -> SVector<S, N> {
+        let _ = segment;
+        nalgebra::zero()
+    }
+
+    /// The kind of the equation.
+    fn kind(&self) -> Equation
+    where
+        Self: Sized,
+    {
+        Equation::General
+    }
+
+    /// The cause of numbers that are not finite.
+    fn cause(&self, segment: &Segment<S, N>) -> Option<StepError>
+    where
+        Self: Sized,
+    {
+        let _ = segment;
+        None
+    }
+}
+
+/// The equation of a system by a rule that is solved for v̄ itself.
+pub(crate) struct OfRule<'a, L: ?Sized, R> {
+    system: &'a L,
+    rule: PhantomData<fn() -> R>,
+}
+
+impl<'a, L: ?Sized, R> OfRule<'a, L, R> {
+    #[inline]
+    pub(crate) fn new(system: &'a L) -> Self {
+        Self { system, rule: PhantomData }
+    }
+}
+
+impl<L, R, const N: usize> StepEquation<L::Scalar, N> for OfRule<'_, L, R>
+where
+    L: Fused<R, N> + Discrete<R, N> + ?Sized,
+{
+    type Matrix = L::Matrix;
+
+    #[inline]
+    fn kernel(&self, segment: &Segment<L::Scalar, N>) -> StepKernel<L::Scalar, N, L::Matrix> {
+        self.system.step_kernel(segment)
+    }
+
+    #[inline]
+    fn momenta(&self, segment: &Segment<L::Scalar, N>) -> Momenta<L::Scalar, N> {
+        self.system.momenta(segment)
+    }
+
+    #[inline]
+    fn inertia(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N> {
+        derivatives_apart(self.system, q, v).d22
+    }
+
+    #[inline]
+    fn cancelling(&self, segment: &Segment<L::Scalar, N>) -> SVector<L::Scalar, N> {
+        self.system.cancelling_terms(segment)
+    }
+
+    #[inline]
+    fn kind(&self) -> Equation {
+        if <L as Fused<R, N>>::LINEAR { Equation::Linear } else { Equation::General }
+    }
+
+    #[inline]
+    fn cause(&self, segment: &Segment<L::Scalar, N>) -> Option<StepError> {
+        cause_of(self.system, self.system.without_derivative_on(segment))
+    }
+}
+
+/// An equation alone, momentum(q, v) = p, at whose root no other momentum is asked for.
+pub(crate) struct Alone<K, P, I> {
+    /// The momentum and its Newton matrix at (q, v).
+    pub(crate) kernel: K,
+    /// The momentum.
+    pub(crate) momentum: P,
+    /// The mass matrix.
+    pub(crate) inertia: I,
+}
+
+impl<S, M, K, P, I, const N: usize> StepEquation<S, N> for Alone<K, P, I>
+where
+    S: Scalar,
+    M: NewtonMatrix<S, N>,
+    K: Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
+    P: Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
+    I: Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N>,
+{
+    type Matrix = M;
+
+    #[inline]
+    fn kernel(&self, segment: &Segment<S, N>) -> StepKernel<S, N, M> {
+        (self.kernel)(&segment.q0, &segment.v)
+    }
+
+    #[inline]
+    fn momenta(&self, segment: &Segment<S, N>) -> Momenta<S, N> {
+        let p = (self.momentum)(&segment.q0, &segment.v);
+        Momenta { p0: p, p1: p }
+    }
+
+    #[inline]
+    fn inertia(&self, q: &SVector<S, N>, v: &SVector<S, N>) -> SMatrix<S, N, N> {
+        (self.inertia)(q, v)
+    }
+}
