@@ -57,7 +57,7 @@ pub use kernel::{Momenta, MomentaBy, StepKernel};
 pub(crate) use linearization::invert;
 pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix, StateBy};
 pub(crate) use outcome::EquationAt;
-pub use outcome::{BoundedStep, Report, Step};
+pub use outcome::{BoundedStep, LinearizedStep, Report, Step};
 pub(crate) use regular::require_regular;
 pub use second_order::{DiscreteSecondOrder, StepHessian};
 pub use segment::Segment;

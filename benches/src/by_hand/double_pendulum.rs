@@ -1,6 +1,6 @@
 //! The double pendulum, with C = cos(q0 − q1), S = sin(q0 − q1).
 
-use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
+use dalembert::nalgebra::{SMatrix, matrix, vector};
 use dalembert::run::VelocityHistory;
 use dalembert::step::{Momenta, Segment, StepKernel};
 use dalembert_scenes as scenes;

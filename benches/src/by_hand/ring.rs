@@ -1,6 +1,6 @@
 //! The ring: V = s(s − 1)², dV/ds = (s − 1)(3s − 1), d²V/ds² = 6s − 4, G = −2 dV/ds q − k v.
 
-use dalembert::nalgebra::{SMatrix, SVector, matrix};
+use dalembert::nalgebra::{SMatrix, matrix};
 use dalembert::run::VelocityHistory;
 use dalembert::step::{Momenta, Segment, StepKernel};
 use dalembert_scenes as scenes;

@@ -9,13 +9,13 @@
 mod machine;
 mod report;
 
-use dalembert::step::Segment;
+use dalembert::step::{ClosedForm, Segment};
 use core::hint::black_box;
 use core::panic::PanicInfo;
 use core::ptr;
 
 use dalembert::run::DrivenTrajectory;
-use dalembert::{Discrete, Discretise, Elementary, Midpoint, State};
+use dalembert::{Discretise, Elementary, Midpoint, State};
 use firmware_scenes::{STEPS, Stepped, digest, double, single};
 use report::Line;
 
@@ -50,7 +50,7 @@ fn stack_used() -> u32 {
 /// Steps `system` from `start` and reports; false where a step failed.
 fn run<L, S>(name: &str, counter: &machine::Counter, system: &L, start: State<S, 2>, h: S) -> bool
 where
-    L: Discrete<Midpoint, 2, Scalar = S>,
+    L: ClosedForm<Midpoint, 2, Scalar = S>,
     S: Elementary,
 {
     let mut trajectory = system.by(Midpoint, h).run(start);

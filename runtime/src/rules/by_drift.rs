@@ -5,7 +5,8 @@ use nalgebra::SVector;
 
 use super::{ByDrift, DampedDrift, Fitted, FittedTrapezoidal};
 use crate::step::{
-    BoundedFlow, BoundedStep, ByFormula, ClosedForm, Flow, PhaseMatrix, State, Step, StepError, step_matrix,
+    BoundedFlow, BoundedStep, ByFormula, ClosedForm, Flow, LinearizedStep, State, Step, StepError,
+    step_matrix,
 };
 use crate::system::Rayleigh;
 
@@ -34,7 +35,7 @@ macro_rules! flow {
                 state: &State<L::Scalar, N>,
                 h: L::Scalar,
                 guess: Option<&SVector<L::Scalar, N>>,
-            ) -> Result<(Step<L::Scalar, N>, PhaseMatrix<L::Scalar, N>), StepError> {
+            ) -> Result<LinearizedStep<L::Scalar, N>, StepError> {
                 let step = Flow::<$rule, N>::step(self, state, h, guess)?;
                 Ok((step, step_matrix::<L, $rule, N>(self, state, &step, h)?))
             }

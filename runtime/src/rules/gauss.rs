@@ -29,7 +29,7 @@ use nalgebra::SVector;
 
 use crate::numbers::{Compensated, Scalar, lanes::splat};
 use crate::step::{
-    Discrete, DiscreteObjects, EquationAt, Flow, PhaseMatrix, Quantity, Report, Segment, State, Step,
+    Discrete, DiscreteObjects, EquationAt, Flow, LinearizedStep, Quantity, Report, Segment, State, Step,
     StepError, newton::ITERATIONS, of_any_step,
 };
 use crate::system::ForcedLagrangian;
@@ -216,7 +216,7 @@ where
         state: &State<T, N>,
         h: T,
         guess: Option<&SVector<T, N>>,
-    ) -> Result<(Step<T, N>, PhaseMatrix<T, N>), StepError> {
+    ) -> Result<LinearizedStep<T, N>, StepError> {
         let (step, solved) = solved_segment::<_, _, N, S>(self, state, h, guess)?;
         Ok((step, solved.by_state()?.matrix()))
     }

@@ -6,7 +6,9 @@ use nalgebra::SVector;
 
 use crate::numbers::Scalar;
 use crate::rules::SelfAdjoint;
-use crate::step::{EnergyExchange, Flow, ForceWork, Memory, PhaseMatrix, Report, State, Step, StepError};
+use crate::step::{
+    EnergyExchange, Flow, ForceWork, LinearizedStep, Memory, PhaseMatrix, Report, State, Step, StepError,
+};
 use crate::system::GeneratedDiffers;
 
 /// A composition of S substeps γ₁h, …, γ_S h of rule `R`, symmetric (γᵢ = γ_{S+1−i}) and of high order.
@@ -167,7 +169,7 @@ where
         state: &State<L::Scalar, N>,
         h: L::Scalar,
         guess: Option<&SVector<L::Scalar, N>>,
-    ) -> Result<(Step<L::Scalar, N>, PhaseMatrix<L::Scalar, N>), StepError> {
+    ) -> Result<LinearizedStep<L::Scalar, N>, StepError> {
         let mut summary = Summary::new();
         let (mut end, mut elapsed, mut guess) = (*state, L::Scalar::constant(0.0), guess.copied());
         let mut a = PhaseMatrix::identity();

@@ -15,7 +15,9 @@ use crate::rules::{Drift, modes, require_positive_definite};
 use crate::run::Explicit;
 use crate::run::memory::verify_explicit;
 use crate::step::cause::{cause_of, explained};
-use crate::step::{Flow, Memory, PhaseMatrix, Quantity, Report, Segment, State, Step, StepError, invert};
+use crate::step::{
+    Flow, LinearizedStep, Memory, PhaseMatrix, Quantity, Report, Segment, State, Step, StepError, invert,
+};
 use crate::system::GeneratedDiffers;
 
 /// A splitting of the motion into kicks by the potential and damped free motions between, S of them,
@@ -149,7 +151,7 @@ where
         state: &State<L::Scalar, N>,
         h: L::Scalar,
         _guess: Option<&SVector<L::Scalar, N>>,
-    ) -> Result<(Step<L::Scalar, N>, PhaseMatrix<L::Scalar, N>), StepError> {
+    ) -> Result<LinearizedStep<L::Scalar, N>, StepError> {
         let prepared = Prepared::<L::Scalar, N, S>::new(self, h)?;
         let mut kicks = Kicks { prepared: Some(prepared), ..Kicks::default() };
         let step = Memory::<L, Splitting<S, COMPENSATED>, N>::advance(&mut kicks, self, state, h)?;

@@ -12,7 +12,7 @@ use crate::step::discrete::explained_on;
 use crate::step::stop::Stop;
 use crate::step::{
     BoundedFlow, BoundedStep, ClosedForm, Discrete, DiscreteForce, DiscreteObjects, DiscreteRayleigh,
-    DiscreteSegment, Flow, LegendreDerivatives, Linearizable, Memory, PhaseMatrix, Segment, State, Step,
+    DiscreteSegment, Flow, LegendreDerivatives, Linearizable, LinearizedStep, Memory, Segment, State, Step,
     StepError, StepTaken, require_step_size,
 };
 use crate::system::{Lagrangian, Quantity};
@@ -232,7 +232,7 @@ where
     pub fn linearized_step(
         &self,
         state: &State<L::Scalar, N>,
-    ) -> Result<(Step<L::Scalar, N>, PhaseMatrix<L::Scalar, N>), StepError> {
+    ) -> Result<LinearizedStep<L::Scalar, N>, StepError> {
         self.system.linearized_step(state, self.h, self.guess.as_ref())
     }
 

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
-use crate::step::{BoundedStep, PhaseMatrix, State, Step, StepError};
+use crate::step::{BoundedStep, LinearizedStep, State, Step, StepError};
 use crate::system::{GeneratedDiffers, Lagrangian};
 
 /// The flow of a system by the method `M`: (q0, p0) ↦ (q1, p1).
@@ -40,7 +40,7 @@ pub trait Flow<M, const N: usize>: Lagrangian<N> {
         state: &State<Self::Scalar, N>,
         h: Self::Scalar,
         guess: Option<&SVector<Self::Scalar, N>>,
-    ) -> Result<(Step<Self::Scalar, N>, PhaseMatrix<Self::Scalar, N>), StepError>;
+    ) -> Result<LinearizedStep<Self::Scalar, N>, StepError>;
 
     /// Verifies that the step of size `h` from `state` computes p0 and p1 as the derivatives of L_d and f_d
     /// say. With the standard library a run does so before its first step.

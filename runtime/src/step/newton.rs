@@ -111,24 +111,24 @@ pub(crate) struct Reached<S, const N: usize> {
 /// ends at the floor, the matrix is not needed again. Contractions that stay as they are, are those of
 /// rounding: at rest h v̄ may be less than the last place of q, which forces then do not see. On the way
 /// residuals are weighed by the floor at the guess; the root is held against its own.
-#[inline]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn quick<S: Scalar, const N: usize>(
     equation: &impl StepEquation<S, N>,
     state: &State<S, N>,
     h: S,
     guess: SVector<S, N>,
 ) -> Result<Solution<S, N>, Reached<S, N>> {
-    let State { q, p } = state;
-    let kind = equation.kind();
-    let mut v = guess;
+    let (p, kind) = (&state.p, equation.kind());
+    // One segment in its place, whose v̄ alone moves: none is copied from iteration to iteration.
+    let mut segment = Segment { q0: state.q, v: guess, h };
     let mut weights: SVector<S, N> = nalgebra::zero();
     let (mut last_size, mut slow) = (S::zero(), S::constant(SLOW));
-    let mut reached = Reached { v, iterations: 0 };
+    let mut reached = Reached { v: guess, iterations: 0 };
     for iterations in 0..QUICK_ITERATIONS {
-        let kernel = equation.kernel(&Segment { q0: *q, v, h });
+        let kernel = equation.kernel(&segment);
         let residual = kernel.p0 - p;
         let Ok(correction) = kernel.matrix.solve(&residual) else { break };
-        let next = v - correction;
+        let next = segment.v - correction;
         let close = if kind == Equation::Linear {
             true
         } else if iterations == 0 {
@@ -146,18 +146,18 @@ pub(crate) fn quick<S: Scalar, const N: usize>(
             (last_size, slow) = (size, contraction * S::constant(0.5));
             size <= S::one() || contraction * contraction * size <= S::one()
         };
-        reached = Reached { v, iterations };
-        v = next;
+        reached = Reached { v: segment.v, iterations };
+        segment.v = next;
         if close {
-            let momenta = equation.momenta(&Segment { q0: *q, v, h });
+            let momenta = equation.momenta(&segment);
             let left = momenta.p0 - p;
-            let floor = estimated_floor(p, &kernel.matrix, &v);
+            let floor = estimated_floor(p, &kernel.matrix, &segment.v);
             let (residual, floor, is_root) = held_against(&left, &floor);
-            if is_root && (is_small_beside(&left, p) || is_known_at(kind, &v, &correction)) {
+            if is_root && (is_small_beside(&left, p) || is_known_at(kind, &segment.v, &correction)) {
                 let iterations = iterations + 1;
                 let last_correction = largest(correction.as_slice());
                 let report = Report { iterations, damped: 0, residual, floor, last_correction };
-                return Ok(Solution { unknown: v, momenta, report });
+                return Ok(Solution { unknown: segment.v, momenta, report });
             }
         }
     }

@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::Scalar;
-use crate::step::{Momenta, State, StepError};
+use crate::step::{Momenta, PhaseMatrix, State, StepError};
 
 /// How a step went.
 ///
@@ -77,6 +77,9 @@ impl<S: Scalar, const N: usize> Step<S, N> {
         Ok(Self { state: next, velocity, report })
     }
 }
+
+/// A step, and its derivative A = ∂(q1, p1)/∂(q0, p0).
+pub type LinearizedStep<S, const N: usize> = (Step<S, N>, PhaseMatrix<S, N>);
 
 /// The equation of a step at the step that was taken; see
 /// [`Discrete::equation_at`](crate::Discrete::equation_at).

@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use crate::step::equation::OfRule;
 use crate::step::{
-    BoundedFlow, BoundedStep, ClosedForm, Discrete, Flow, PhaseMatrix, Segment, State, Step, StepError,
+    BoundedFlow, BoundedStep, ClosedForm, Discrete, Flow, LinearizedStep, Segment, State, Step, StepError,
     of_equation_and_step, step_by, step_matrix, step_within_by, verify_momenta,
 };
 use crate::system::GeneratedDiffers;
@@ -53,7 +53,7 @@ where
         state: &State<L::Scalar, N>,
         h: L::Scalar,
         guess: Option<&SVector<L::Scalar, N>>,
-    ) -> Result<(Step<L::Scalar, N>, PhaseMatrix<L::Scalar, N>), StepError> {
+    ) -> Result<LinearizedStep<L::Scalar, N>, StepError> {
         let step = self.step(state, h, guess)?;
         Ok((step, step_matrix(self, state, &step, h)?))
     }

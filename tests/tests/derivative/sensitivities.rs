@@ -49,9 +49,9 @@ mod num_dual {
 
 use dalembert::derivative::{PhaseMatrix, StepHessian};
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
+use dalembert::rules::{DisplacementRule, Node, Quadrature};
 use dalembert::step::Flow;
 use dalembert::step::{DiscreteDriven, DiscreteParameters, DiscreteRayleigh, DiscreteSecondOrder, Segment};
-use dalembert::rules::{DisplacementRule, Node, Quadrature};
 use dalembert::system::{Parameters, SecondOrder};
 use dalembert::{
     Discrete, Discretise, Gauss, Lagrangian, Midpoint, Rayleigh, State, Trapezoidal, rayleigh_system,

@@ -118,14 +118,20 @@ pub(super) fn parameter(name: &str, is_used: bool) -> Ident {
     if is_used { format_ident!("{name}") } else { format_ident!("_{name}") }
 }
 
-/// `let Segment { q0, h, .. } = *segment;` for what a body reads of its segment.
+/// `let (q0, h) = (&segment.q0, segment.h);` for what a body reads of its segment.
 pub(super) fn of_segment(parameters: [(bool, &str); 3]) -> Option<TokenStream> {
-    let used: Vec<Ident> =
-        parameters.iter().filter(|(is_used, _)| *is_used).map(|(_, name)| format_ident!("{name}")).collect();
-    let rest = (used.len() < parameters.len()).then(|| quote!(..));
-    Some(match used.is_empty() {
-        true => quote!(let _ = segment;),
-        false => quote!(let Segment { #(#used,)* #rest } = *segment;),
+    let used = parameters.iter().filter(|(is_used, _)| *is_used);
+    let (names, values): (Vec<Ident>, Vec<TokenStream>) = used
+        .map(|(_, name)| {
+            let field = format_ident!("{name}");
+            let value = if *name == "h" { quote!(segment.h) } else { quote!(&segment.#field) };
+            (field, value)
+        })
+        .unzip();
+    Some(match (&names[..], &values[..]) {
+        ([], _) => quote!(let _ = segment;),
+        ([name], [value]) => quote!(let #name = #value;),
+        _ => quote!(let (#(#names),*) = (#(#values),*);),
     })
 }
 

@@ -177,7 +177,7 @@ const _: () = {
             &self,
             segment: &Segment<f64, 4>,
         ) -> StepKernel<f64, 4, Self::Matrix> {
-            let Segment { q0, v, h } = *segment;
+            let (q0, v, h) = (&segment.q0, &segment.v, segment.h);
             let half = 0.5 * h;
             let q = [
                 q0[0] + half * v[0],
@@ -229,7 +229,7 @@ const _: () = {
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
         #[inline]
         fn momenta(&self, segment: &Segment<f64, 4>) -> Momenta<f64, 4> {
-            let Segment { q0, v, h } = *segment;
+            let (q0, v, h) = (&segment.q0, &segment.v, segment.h);
             let half = 0.5 * h;
             let q = [
                 q0[0] + half * v[0],

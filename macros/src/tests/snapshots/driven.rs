@@ -339,7 +339,7 @@ const _: () = {
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
         #[inline]
         fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {
-            let Segment { q0, v, h } = *segment;
+            let (q0, v, h) = (&segment.q0, &segment.v, segment.h);
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
             let t = self.t + half;
@@ -360,7 +360,7 @@ const _: () = {
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
         #[inline]
         fn momenta(&self, segment: &Segment<f64, 1>) -> Momenta<f64, 1> {
-            let Segment { q0, v, h } = *segment;
+            let (q0, v, h) = (&segment.q0, &segment.v, segment.h);
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
             let t = self.t + half;

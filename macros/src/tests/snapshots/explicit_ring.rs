@@ -167,7 +167,7 @@ const _: () = {
             &self,
             segment: &Segment<f64, 2>,
         ) -> StepKernel<f64, 2, Self::Matrix> {
-            let Segment { q0, v, h } = *segment;
+            let (q0, v, h) = (&segment.q0, &segment.v, segment.h);
             let half = 0.5 * h;
             let k = self.k;
             let s_start = q0[0] * q0[0] + q0[1] * q0[1];
@@ -187,7 +187,7 @@ const _: () = {
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
         #[inline]
         fn momenta(&self, segment: &Segment<f64, 2>) -> Momenta<f64, 2> {
-            let Segment { q0, v, h } = *segment;
+            let (q0, v, h) = (&segment.q0, &segment.v, segment.h);
             let half = 0.5 * h;
             let q1 = [q0[0] + h * v[0], q0[1] + h * v[1]];
             let s_start = q0[0] * q0[0] + q0[1] * q0[1];

@@ -166,7 +166,7 @@ const _: () = {
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
         #[inline]
         fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {
-            let Segment { q0, v, h } = *segment;
+            let (q0, v, h) = (&segment.q0, &segment.v, segment.h);
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
             let m = self.m;
@@ -180,7 +180,7 @@ const _: () = {
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
         #[inline]
         fn momenta(&self, segment: &Segment<f64, 1>) -> Momenta<f64, 1> {
-            let Segment { q0, v, h } = *segment;
+            let (q0, v, h) = (&segment.q0, &segment.v, segment.h);
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
             let t1 = self.m * v[0];
@@ -200,7 +200,7 @@ const _: () = {
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
         #[inline]
         fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {
-            let Segment { q0, v, h } = *segment;
+            let (q0, v, h) = (&segment.q0, &segment.v, segment.h);
             let half = 0.5 * h;
             let t1 = self.m + self.r * half;
             StepKernel {
@@ -211,7 +211,7 @@ const _: () = {
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
         #[inline]
         fn momenta(&self, segment: &Segment<f64, 1>) -> Momenta<f64, 1> {
-            let Segment { q0, v, h } = *segment;
+            let (q0, v, h) = (&segment.q0, &segment.v, segment.h);
             let half = 0.5 * h;
             let q1 = [q0[0] + h * v[0]];
             let t1 = self.m * v[0];

@@ -202,37 +202,37 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
     where
         L: Fused<R, N, Scalar = S, Matrix = M>,
     {
-        let State { q, p } = state;
+        let p = &state.p;
         let floor = estimated_floor(p, &self.matrix, &guess);
         let weights = floor.map(|floor| S::one() / floor);
-        let mut v = guess;
+        let mut segment = Segment { q0: state.q, v: guess, h: self.h };
         let mut correction: SVector<S, N> = nalgebra::zero();
         let mut last_size = S::constant(CLOSE) / (S::EPSILON * S::constant(CONTRACTION));
         // At least one correction: extrapolation alone, step after step, would let rounding grow.
         for iterations in 0..=MOST {
-            let momenta = system.momenta(&Segment { q0: *q, v, h: self.h });
+            let momenta = system.momenta(&segment);
             let residual = momenta.p0 - p;
             let size = weighted(&residual, &weights);
             if iterations > 0 && size <= S::constant(AT_FLOOR) {
                 let (residual, floor) = if is_small_beside(&residual, p) {
                     held_by_weights(&residual, &floor, &weights, size)
                 } else {
-                    self.held_with_care(system, state, v, residual)
+                    self.held_with_care(system, state, segment.v, residual)
                 }?;
                 let last_correction = correction.amax();
                 let report = Report { iterations, damped: 0, residual, floor, last_correction };
-                return Step::completed(state, self.h, v, &momenta, report).ok();
+                return Step::completed(state, self.h, segment.v, &momenta, report).ok();
             }
             if !(size <= last_size * S::constant(CONTRACTION)) {
                 return if iterations > 0 {
-                    self.held_up(system, state, v, momenta, (iterations, correction))
+                    self.held_up(system, state, segment.v, momenta, (iterations, correction))
                 } else {
                     None
                 };
             }
             last_size = size;
             correction = self.factored.solve(&residual);
-            v -= correction;
+            segment.v -= correction;
         }
         None
     }
@@ -307,24 +307,25 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
     where
         L: Fused<R, N, Scalar = S, Matrix = M>,
     {
-        let State { q, p } = state;
-        let mut v = guess;
+        let p = &state.p;
+        let mut segment = Segment { q0: state.q, v: guess, h: self.h };
         let mut correction: SVector<S, N> = nalgebra::zero();
         let mut iterations = 0;
         // The factors' rounding is the same at every step, and so is its share of a correction: a drift,
         // unless corrections are small.
-        while iterations == 0 || iterations == 1 && correction.amax() > v.amax() * S::constant(SMALL) {
-            correction = self.factored.solve(&(system.momenta(&Segment { q0: *q, v, h: self.h }).p0 - p));
-            v -= correction;
+        while iterations == 0 || iterations == 1 && correction.amax() > segment.v.amax() * S::constant(SMALL)
+        {
+            correction = self.factored.solve(&(system.momenta(&segment).p0 - p));
+            segment.v -= correction;
             iterations += 1;
         }
-        let momenta = system.momenta(&Segment { q0: *q, v, h: self.h });
-        let floor = estimated_floor(p, &self.matrix, &v);
+        let momenta = system.momenta(&segment);
+        let floor = estimated_floor(p, &self.matrix, &segment.v);
         let (residual, floor, is_root) = held_against(&(momenta.p0 - p), &floor);
         if !is_root {
             return None;
         }
         let report = Report { iterations, damped: 0, residual, floor, last_correction: correction.amax() };
-        Step::completed(state, self.h, v, &momenta, report).ok()
+        Step::completed(state, self.h, segment.v, &momenta, report).ok()
     }
 }
