@@ -9,10 +9,10 @@
 mod machine;
 mod report;
 
-use dalembert::step::{ClosedForm, Segment};
 use core::hint::black_box;
 use core::panic::PanicInfo;
 use core::ptr;
+use dalembert::step::{ClosedForm, Segment};
 
 use dalembert::run::DrivenTrajectory;
 use dalembert::{Discretise, Elementary, Midpoint, State};

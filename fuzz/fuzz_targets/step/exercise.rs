@@ -2,7 +2,7 @@
 
 use dalembert::derivative::PhaseMatrix;
 use dalembert::nalgebra::{ComplexField, SVector};
-use dalembert::step::{BoundedFlow, Flow, Step};
+use dalembert::step::{BoundedFlow, Flow, Fused, Linearizable, Step};
 use dalembert::system::Scalar;
 use dalembert::{Composition, Discrete, Discretise, Lagrangian, Midpoint, State, StepError, Trajectory};
 
@@ -50,13 +50,13 @@ impl Exercise {
     /// A rule whose step solves 𝔽⁻ for v̄ itself.
     pub fn by_rule<L, R, const N: usize>(&self, system: &L, rule: R)
     where
-        L: Discrete<R, N> + BoundedFlow<R, N>,
+        L: Fused<R, N> + Linearizable<R, N> + BoundedFlow<R, N>,
         R: Copy,
     {
         let (state, guess) = (self.state(), self.guess.as_ref().map(vector));
         let h = L::Scalar::constant(self.h);
         if let Some(step) = self.by_any_rule(system, rule) {
-            promise::solved(system, &state, h, &step);
+            promise::solved::<L, R, N>(system, &state, h, &step);
         }
         let iterations = u32::from(self.asked >> 5);
         if self.asks(0)
@@ -70,7 +70,7 @@ impl Exercise {
     /// A rule that may solve for stages between; the step taken.
     pub fn by_any_rule<L, R, const N: usize>(&self, system: &L, rule: R) -> Option<Step<L::Scalar, N>>
     where
-        L: Discrete<R, N>,
+        L: Linearizable<R, N>,
         R: Copy,
     {
         let h = L::Scalar::constant(self.h);
@@ -165,7 +165,7 @@ impl Exercise {
         assert!(evaluations <= EVALUATIONS, "{evaluations} evaluations: {step:?}");
         if let Ok(step) = step {
             promise::finite(&state, self.h, &step);
-            promise::solved(system, &state, self.h, &step);
+            promise::solved::<_, Midpoint, 1>(system, &state, self.h, &step);
         }
         let _ = system.energy(&state.q, &state.p);
     }

@@ -6,10 +6,10 @@
 //! factor where a component of the force happens to vanish. All coordinates of a system here have the same
 //! unit, and it is held to the largest residual and floor.
 
+use dalembert::State;
 use dalembert::nalgebra::{SVector, zero};
-use dalembert::step::{NewtonMatrix, Segment, Step};
+use dalembert::step::{Fused, NewtonMatrix, Segment, Step};
 use dalembert::system::Scalar;
-use dalembert::{Discrete, State};
 
 /// Floors within which a residual that has stopped falling is accepted.
 const STAGNATION: f64 = 4096.0;
@@ -44,10 +44,12 @@ pub fn solved<L, R, const N: usize>(
     h: L::Scalar,
     step: &Step<L::Scalar, N>,
 ) where
-    L: Discrete<R, N>,
+    L: Fused<R, N>,
 {
     let (q, v) = (&state.q, &step.velocity);
-    let p0 = |q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>| system.momenta(&Segment { q0: *q, v: *v, h }).p0;
+    let p0 = |q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>| {
+        system.momenta(&Segment { q0: *q, v: *v, h }).p0
+    };
     let residual = (p0(q, v) - state.p).abs();
     assert!(
         residual.iter().any(|entry| *entry == step.report.residual),

@@ -15,6 +15,7 @@ mod linearised;
 mod modes;
 mod newton;
 mod noise;
+mod objects;
 mod problem;
 mod rounding;
 mod segment;

@@ -3,8 +3,8 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::parts::Parts;
-use super::{DisplacementRule, Fused, Node, SelfAdjoint};
-use crate::step::{Momenta, Segment, SolvedForVelocity, StepKernel, VelocityHistory};
+use super::{DisplacementRule, Node, SelfAdjoint};
+use crate::step::{Fused, Momenta, Segment, SolvedForVelocity, StepKernel, VelocityHistory};
 use crate::system::ActingForce;
 
 /// The rule of one's own `Q`, for every system: nodes and weights on the straight line from q0 to q1.

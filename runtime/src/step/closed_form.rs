@@ -9,7 +9,7 @@ use crate::numbers::{Derivatives, determinant_sign};
 use crate::step::discrete::explained_on;
 use crate::step::{
     Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteObjects, EquationAt, Flow, Fused, Momenta,
-    Segment, SolvedForVelocity, State, Step, StepError,
+    Segment, State, Step, StepError,
 };
 use crate::system::Quantity;
 
@@ -80,8 +80,6 @@ pub trait ClosedForm<R, const N: usize>: Fused<R, N> {
 
 /// A rule by which systems may be [`ClosedForm`]: any but those that solve for points within a segment.
 pub trait ByFormula {}
-
-impl<R: SolvedForVelocity> ByFormula for R {}
 
 /// The formulas of a system by rule `R` on a segment.
 pub struct Formulas<'a, L: Fused<R, N> + ?Sized, R, const N: usize> {

@@ -36,8 +36,8 @@ pub trait DiscreteInLanes<R, const N: usize>:
         *fields
     }
 
-    /// [`step_kernel`](crate::rules::Fused::step_kernel) of each member, p0 and the entries of the matrix, to the last
-    /// bit.
+    /// [`step_kernel`](crate::rules::Fused::step_kernel) of each member, p0 and the entries of the matrix, to
+    /// the last bit.
     fn step_kernel_in_lanes<const W: usize>(
         fields: &Self::Fields<W>,
         q0: &MemberVector<Self::Scalar, N, W>,

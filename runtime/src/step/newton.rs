@@ -41,8 +41,8 @@ pub(crate) struct Solution<S, const N: usize> {
 /// The undamped method's iterations: from a guess this far off the careful one goes on.
 pub(crate) const QUICK_ITERATIONS: u32 = 8;
 
-/// The v with momentum(q, v) = p at the `state` (q, p). Configurations on the way are q plus a share of `h` v,
-/// with h = 0 at q itself.
+/// The v with momentum(q, v) = p at the `state` (q, p). Configurations on the way are q plus a share of `h`
+/// v, with h = 0 at q itself.
 #[cfg(feature = "theory")]
 #[inline]
 pub(crate) fn root<S: Scalar, const N: usize>(

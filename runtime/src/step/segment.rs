@@ -6,7 +6,7 @@ use crate::numbers::Scalar;
 
 /// A segment of a motion: from q0 with the mean velocity v̄ over a step of size h, to q1 = q0 + h v̄.
 ///
-/// What a rule evaluates, it evaluates on a segment: L_d, f_d, both momenta and their derivatives.
+/// L_d, f_d, both momenta and their derivatives are functions of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment<S, const N: usize> {
     /// The configuration at the start.

@@ -4,8 +4,8 @@ use nalgebra::SVector;
 
 use crate::step::equation::OfRule;
 use crate::step::{
-    BoundedFlow, BoundedStep, ClosedForm, Discrete, Flow, LinearizedStep, Segment, State, Step, StepError,
-    of_equation_and_step, step_by, step_matrix, step_within_by, verify_momenta,
+    BoundedFlow, BoundedStep, ByFormula, ClosedForm, Discrete, Flow, LinearizedStep, Segment, State, Step,
+    StepError, of_equation_and_step, step_by, step_matrix, step_within_by, verify_momenta,
 };
 use crate::system::GeneratedDiffers;
 
@@ -20,6 +20,8 @@ use crate::system::GeneratedDiffers;
     note = "a rule whose systems implement `Fused` and `ClosedForm` states it: `impl dalembert::rules::SolvedForVelocity for {Self} {{}}`"
 )]
 pub trait SolvedForVelocity {}
+
+impl<R: SolvedForVelocity> ByFormula for R {}
 
 impl<L, R, const N: usize> Flow<R, N> for L
 where

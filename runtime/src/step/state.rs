@@ -9,8 +9,8 @@ use crate::system::Quantity;
 /// Configuration and momentum, a point (q, p) of T*Q.
 ///
 /// Made from (q, v) by [`State::from_velocity`], or from two configurations by
-/// [`Discrete::legendre_plus`](crate::Discrete::legendre_plus) (the state at q1) and
-/// [`Discrete::legendre_minus`](crate::Discrete::legendre_minus) (the state at q0).
+/// [`legendre_plus`](crate::step::DiscreteSegment::legendre_plus) (the state at q1) and
+/// [`legendre_minus`](crate::step::DiscreteSegment::legendre_minus) (the state at q0).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

@@ -2,7 +2,7 @@
 //! functions of them.
 
 use dalembert::rules::SolvedForVelocity;
-use dalembert::step::{BoundedStep, ClosedForm, StepTaken};
+use dalembert::step::{BoundedStep, ClosedForm, LinearizedStep, StepTaken};
 use dalembert::tolerance::{GuardedTrajectory, OffersMethods, TimedRequest};
 use dalembert::{Discretise, Midpoint, State, StepError, rayleigh_system};
 
@@ -21,6 +21,7 @@ struct Bench<'a> {
     asked: TimedRequest<'a, Spring, Offered>,
     run: GuardedTrajectory<'a, Spring, Offered, 1>,
     step: StepTaken<'a, Spring, Midpoint, 1>,
+    with_a: LinearizedStep<f64, 1>,
 }
 
 fn bounded<R: SolvedForVelocity>(system: &Spring, rule: R) -> Result<BoundedStep<f64, 1>, StepError>
@@ -38,6 +39,7 @@ fn results_are_kept_in_a_struct_and_steps_bounded_for_any_rule_that_can() {
         asked,
         run: asked.run(START).unwrap(),
         step: spring.by(Midpoint, H).linearized(&START).unwrap(),
+        with_a: spring.by(Midpoint, H).linearized_step(&START).unwrap(),
     };
     bench.run.next().unwrap().unwrap();
     assert_eq!(bench.asked.choice(&START).unwrap().step_size(), bench.run.time());
@@ -45,6 +47,7 @@ fn results_are_kept_in_a_struct_and_steps_bounded_for_any_rule_that_can() {
     let within = bounded(&spring, Midpoint).unwrap();
     assert!(within.converged);
     assert_eq!(bench.step.step().state, within.step.state);
+    assert_eq!(bench.with_a, (*bench.step.step(), bench.step.by_state().unwrap()));
     // The midpoint rule's q1 = (1 − x)/(1 + x), x = h²k/4, by k.
     let x = 0.25 * H * H * spring.k;
     let expected = -0.5 * H * H / ((1.0 + x) * (1.0 + x));
