@@ -8,16 +8,16 @@ use crate::step::{
     DiscreteRayleigh, DiscreteSecondOrder, Fused, LinearizedSegment, Segment, SolvedForVelocity, State,
     StateBy, StepError, StepHessian,
 };
-use crate::system::{ActingForce, Driven, Parameters, Rayleigh, SecondOrder};
+use crate::system::{Driven, Parameters, Rayleigh, SecondOrder};
 use nalgebra::SVector;
 
 /// [`ClosedForm`] by the `functions` of a rule.
 macro_rules! closed_form {
-    ($(#[$doc:meta])* [$($of:tt)*] $rule:ty, $functions:path, $system:ident) => {
+    ($(#[$doc:meta])* [$($of:tt)*] $rule:ty, $functions:path $(, $system:ident)?) => {
         $(#[$doc])*
         impl<$($of)* L, const N: usize> ClosedForm<$rule, N> for L
         where
-            L: Fused<$rule, N> + $system<N>,
+            L: Fused<$rule, N> $(+ $system<N>)?,
         {
             fn discrete_lagrangian(&self, segment: &Segment<L::Scalar, N>) -> L::Scalar {
                 <$rule as $functions>::discrete_lagrangian(self, segment)
@@ -58,7 +58,7 @@ macro_rules! closed_form {
 
 closed_form! {
     /// By nodes and weights.
-    [R: DisplacementRule + SolvedForVelocity,] R, DisplacementRule, ActingForce
+    [R: DisplacementRule + SolvedForVelocity,] R, DisplacementRule
 }
 closed_form! { [] Fitted, JointRule, Rayleigh }
 closed_form! { [] FittedTrapezoidal, JointRule, Rayleigh }
@@ -66,10 +66,10 @@ closed_form! { [] OneSided, JointRule, Rayleigh }
 
 /// [`DiscreteRayleigh`] by the `functions` of the rule, for N coordinates, or for so many.
 macro_rules! discrete_rayleigh {
-    ([$($of:tt)*] $rule:ty, $n:tt, $functions:path $(, $system:ident)?) => {
+    ([$($of:tt)*] $rule:ty, $n:tt, $functions:path) => {
         impl<$($of)*> DiscreteRayleigh<$rule, $n> for L
         where
-            L: Fused<$rule, $n> + Rayleigh<$n> $(+ $system<$n>)?,
+            L: Fused<$rule, $n> + Rayleigh<$n>,
         {
             fn discrete_rayleigh(&self, segment: &Segment<L::Scalar, $n>) -> L::Scalar {
                 <$rule as $functions>::discrete_rayleigh(self, segment)
@@ -85,9 +85,7 @@ macro_rules! discrete_rayleigh {
     };
 }
 
-discrete_rayleigh! {
-    [R: DisplacementRule + SolvedForVelocity, L, const N: usize] R, N, DisplacementRule, ActingForce
-}
+discrete_rayleigh! { [R: DisplacementRule + SolvedForVelocity, L, const N: usize] R, N, DisplacementRule }
 discrete_rayleigh! { [L] Fitted, 1, JointRayleighRule }
 discrete_rayleigh! { [L, const N: usize] FittedTrapezoidal, N, JointRayleighRule }
 discrete_rayleigh! { [L, const N: usize] OneSided, N, JointRayleighRule }
@@ -95,7 +93,7 @@ discrete_rayleigh! { [L, const N: usize] OneSided, N, JointRayleighRule }
 impl<R, L, const N: usize, const M: usize> DiscreteDriven<R, N, M> for L
 where
     R: DisplacementRule + SolvedForVelocity,
-    L: Fused<R, N> + ActingForce<N> + Driven<N, M>,
+    L: Fused<R, N> + Driven<N, M>,
 {
     /// Of the general force alone.
     fn by_input(at: &LinearizedSegment<'_, L, R, N>) -> Result<StateBy<L::Scalar, N, M>, StepError> {
@@ -106,7 +104,7 @@ where
 impl<R, L, const N: usize, const P: usize> DiscreteParameters<R, N, P> for L
 where
     R: DisplacementRule + SolvedForVelocity,
-    L: Fused<R, N> + ActingForce<N> + Parameters<N, P>,
+    L: Fused<R, N> + Parameters<N, P>,
 {
     fn by_parameters(at: &LinearizedSegment<'_, L, R, N>) -> Result<StateBy<L::Scalar, N, P>, StepError> {
         let (system, segment) = (at.on.system, at.on.segment());
@@ -124,7 +122,7 @@ where
 impl<R, L, const N: usize, const M: usize> DiscreteSecondOrder<R, N, M> for L
 where
     R: DisplacementRule + SolvedForVelocity,
-    L: Fused<R, N> + ActingForce<N> + SecondOrder<N, M>,
+    L: Fused<R, N> + SecondOrder<N, M>,
 {
     fn hessian(
         at: &LinearizedSegment<'_, L, R, N>,

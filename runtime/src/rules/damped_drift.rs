@@ -248,7 +248,7 @@ where
 
     #[inline]
     fn cancelling(&self, segment: &Segment<L::Scalar, N>) -> SVector<L::Scalar, N> {
-        self.system.cancelling_terms(segment)
+        Fused::<R, N>::cancelling_terms(self.system, segment)
     }
 
     #[inline]

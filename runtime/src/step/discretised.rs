@@ -340,10 +340,13 @@ where
 /// them. [`segment`](Self::segment) serves all rules.
 impl<L, R, const N: usize> Discretised<'_, L, R, N>
 where
-    L: ClosedForm<R, N>,
+    L: Discrete<R, N>,
 {
     /// L_d(q0, q1).
-    pub fn discrete_lagrangian(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar {
+    pub fn discrete_lagrangian(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
+    where
+        L: ClosedForm<R, N>,
+    {
         self.system.discrete_lagrangian(&self.between(q0, q1))
     }
 
@@ -352,7 +355,10 @@ where
         &self,
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
-    ) -> Derivatives<L::Scalar, N> {
+    ) -> Derivatives<L::Scalar, N>
+    where
+        L: ClosedForm<R, N>,
+    {
         self.system.discrete_lagrangian_derivatives(&self.between(q0, q1))
     }
 
@@ -362,7 +368,10 @@ where
         &self,
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
-    ) -> DiscreteForce<L::Scalar, N> {
+    ) -> DiscreteForce<L::Scalar, N>
+    where
+        L: ClosedForm<R, N>,
+    {
         self.system.discrete_force(&self.between(q0, q1))
     }
 
@@ -371,16 +380,18 @@ where
         &self,
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
-    ) -> State<L::Scalar, N> {
+    ) -> State<L::Scalar, N>
+    where
+        L: ClosedForm<R, N>,
+    {
         State { q: *q0, p: self.system.momenta(&self.between(q0, q1)).p0 }
     }
 
     /// 𝔽⁺: (q0, q1) ↦ (q1, D2 L_d + f_d⁺).
-    pub fn legendre_plus(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-    ) -> State<L::Scalar, N> {
+    pub fn legendre_plus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> State<L::Scalar, N>
+    where
+        L: ClosedForm<R, N>,
+    {
         State { q: *q1, p: self.system.momenta(&self.between(q0, q1)).p1 }
     }
 
@@ -389,7 +400,10 @@ where
         &self,
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
-    ) -> LegendreDerivatives<L::Scalar, N> {
+    ) -> LegendreDerivatives<L::Scalar, N>
+    where
+        L: ClosedForm<R, N>,
+    {
         {
             let segment = self.between(q0, q1);
             let l = self.system.discrete_lagrangian_derivatives(&segment);
@@ -406,13 +420,19 @@ where
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
         q2: &SVector<L::Scalar, N>,
-    ) -> SVector<L::Scalar, N> {
+    ) -> SVector<L::Scalar, N>
+    where
+        L: ClosedForm<R, N>,
+    {
         let (before, after) = (self.between(q0, q1), self.between(q1, q2));
         self.system.momenta(&before).p1 - self.system.later(self.h, |system| system.momenta(&after).p0)
     }
 
     /// Energy on the segment: E_L at the points and velocity that the rule sees.
-    pub fn segment_energy(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar {
+    pub fn segment_energy(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
+    where
+        L: ClosedForm<R, N>,
+    {
         self.system.segment_energy(&self.between(q0, q1))
     }
 
@@ -428,10 +448,13 @@ where
 /// The discrete objects of a Rayleigh system on a segment (q0, q1).
 impl<L, R, const N: usize> Discretised<'_, L, R, N>
 where
-    L: DiscreteRayleigh<R, N>,
+    L: Discrete<R, N>,
 {
     /// R_d(q0, q1).
-    pub fn discrete_rayleigh(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar {
+    pub fn discrete_rayleigh(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
+    where
+        L: DiscreteRayleigh<R, N>,
+    {
         self.system.discrete_rayleigh(&self.between(q0, q1))
     }
 
@@ -440,17 +463,26 @@ where
         &self,
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
-    ) -> Derivatives<L::Scalar, N> {
+    ) -> Derivatives<L::Scalar, N>
+    where
+        L: DiscreteRayleigh<R, N>,
+    {
         self.system.discrete_rayleigh_derivatives(&self.between(q0, q1))
     }
 
     /// L_d⁺ = L_d + R_d.
-    pub fn modified_plus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar {
+    pub fn modified_plus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
+    where
+        L: DiscreteRayleigh<R, N>,
+    {
         self.system.modified_plus(&self.between(q0, q1))
     }
 
     /// L_d⁻ = L_d − R_d.
-    pub fn modified_minus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar {
+    pub fn modified_minus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
+    where
+        L: DiscreteRayleigh<R, N>,
+    {
         self.system.modified_minus(&self.between(q0, q1))
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use crate::numbers::NewtonMatrix;
 use crate::step::{Memory, Momenta, Segment, StepKernel};
-use crate::system::Lagrangian;
+use crate::system::ActingForce;
 
 /// The step of a system by rule `R`: its equation and both momenta, each one function of L, R and f.
 ///
@@ -57,7 +57,7 @@ use crate::system::Lagrangian;
     note = "if its force takes an input, write `system.driven(u)` where `system` stands; if L, R or f take the time, `system.at_time(t)`, with an input `system.driven(u, t)`",
     note = "otherwise list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, trapezoidal])]`"
 )]
-pub trait Fused<R, const N: usize>: Lagrangian<N> {
+pub trait Fused<R, const N: usize>: ActingForce<N> {
     /// The form of the Newton matrix: `SMatrix<Scalar, N, N>`, or [`Banded`](crate::step::Banded).
     type Matrix: NewtonMatrix<Self::Scalar, N>;
 

@@ -3,9 +3,10 @@
 //! the like. Their slopes are not refuted by differences of the functions as written, and are where they are
 //! those of another system. The momenta of their steps are those of L_d and f_d.
 
+use dalembert::rules::SolvedForVelocity;
 use dalembert::run::VelocityHistory;
 use dalembert::step::{ClosedForm, DiscreteForce, Flow, Fused, Momenta, Segment, StepKernel};
-use dalembert::system::{Derivatives, Structure, verification};
+use dalembert::system::{ActingForce, Derivatives, Structure, verification};
 use dalembert::{Lagrangian, Midpoint, State, StepError};
 use nalgebra::SVector;
 
@@ -117,8 +118,14 @@ impl<S: Lagrangian<N>, const N: usize> Lagrangian<N> for Mixed<S> {
     }
 }
 
-/// With the step's equation and momenta of the other.
-impl<S: ClosedForm<Midpoint, N>, const N: usize> Fused<Midpoint, N> for Mixed<S> {
+/// A rule whose discrete objects are those of the one, and its equation and momenta of the other.
+struct Apart;
+
+impl SolvedForVelocity for Apart {}
+
+impl<S: Lagrangian<N>, const N: usize> ActingForce<N> for Mixed<S> {}
+
+impl<S: ClosedForm<Midpoint, N>, const N: usize> Fused<Apart, N> for Mixed<S> {
     type Matrix = S::Matrix;
     type Memory = VelocityHistory<S::Scalar, N>;
 
@@ -133,7 +140,7 @@ impl<S: ClosedForm<Midpoint, N>, const N: usize> Fused<Midpoint, N> for Mixed<S>
     }
 }
 
-impl<S: ClosedForm<Midpoint, N>, const N: usize> ClosedForm<Midpoint, N> for Mixed<S> {
+impl<S: ClosedForm<Midpoint, N>, const N: usize> ClosedForm<Apart, N> for Mixed<S> {
     fn discrete_lagrangian(&self, segment: &Segment<S::Scalar, N>) -> S::Scalar {
         self.written.discrete_lagrangian(segment)
     }
@@ -165,7 +172,7 @@ macro_rules! refute {
             let mixed = Mixed { written, derivatives };
             [
                 verification::lagrangian_slope(&mixed, &q, &v).is_err(),
-                Flow::<Midpoint, $n>::verify_momenta(&mixed, &State { q, p: v }, 0.1).is_err(),
+                Flow::<Apart, $n>::verify_momenta(&mixed, &State { q, p: v }, 0.1).is_err(),
             ]
         })
     };

@@ -7,7 +7,7 @@ use dalembert::rules::DisplacementRule;
 use dalembert::rules::SolvedForVelocity;
 use dalembert::run::VelocityHistory;
 use dalembert::step::{ClosedForm, Fused, Momenta, Segment, StepKernel};
-use dalembert::system::Derivatives;
+use dalembert::system::{ActingForce, Derivatives};
 use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, Rayleigh, State, Trapezoidal};
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::convergence::Convergence;
@@ -101,14 +101,13 @@ mod wrong {
     }
 
     /// The midpoint rule with R's share of p0 and of p1 multiplied by what `factors` gives.
-    trait Alteration: SolvedForVelocity + Copy {
+    trait Alteration: Copy {
         fn factors(h: f64) -> [f64; 2];
     }
 
     /// R_d = (h/2) R, as the paper prints it: 1/h times what it should be.
     #[derive(Clone, Copy)]
     struct Printed;
-    impl SolvedForVelocity for Printed {}
     impl Alteration for Printed {
         fn factors(h: f64) -> [f64; 2] {
             [1.0 / h, 1.0 / h]
@@ -118,7 +117,6 @@ mod wrong {
     /// The whole force at q0, none at q1: f_d⁺ = 0.
     #[derive(Clone, Copy)]
     struct OneSided;
-    impl SolvedForVelocity for OneSided {}
     impl Alteration for OneSided {
         fn factors(_: f64) -> [f64; 2] {
             [2.0, 0.0]
@@ -128,14 +126,21 @@ mod wrong {
     /// Nothing altered: shows that the alterations are what loses the order.
     #[derive(Clone, Copy)]
     struct Unaltered;
-    impl SolvedForVelocity for Unaltered {}
     impl Alteration for Unaltered {
         fn factors(_: f64) -> [f64; 2] {
             [1.0, 1.0]
         }
     }
 
-    impl<S, A: Alteration, const N: usize> Fused<A, N> for Altered<S>
+    /// The rule that is altered.
+    #[derive(Clone, Copy)]
+    struct By<A>(A);
+
+    impl<A> SolvedForVelocity for By<A> {}
+
+    impl<S: Lagrangian<N, Scalar = f64>, const N: usize> ActingForce<N> for Altered<S> {}
+
+    impl<S, A: Alteration, const N: usize> Fused<By<A>, N> for Altered<S>
     where
         S: Rayleigh<N, Scalar = f64>,
     {
@@ -154,7 +159,7 @@ mod wrong {
         }
     }
 
-    impl<S, A: Alteration, const N: usize> ClosedForm<A, N> for Altered<S>
+    impl<S, A: Alteration, const N: usize> ClosedForm<By<A>, N> for Altered<S>
     where
         S: Rayleigh<N, Scalar = f64>,
     {
@@ -172,11 +177,11 @@ mod wrong {
     }
 
     fn pendulum<A: Alteration>(rule: A) -> [f64; 2] {
-        orders(&Pendulum::EXAMPLE, &Altered(Pendulum::EXAMPLE), rule, [1.9], [-0.7], 1.5)
+        orders(&Pendulum::EXAMPLE, &Altered(Pendulum::EXAMPLE), By(rule), [1.9], [-0.7], 1.5)
     }
 
     fn bead<A: Alteration>(rule: A) -> [f64; 2] {
-        orders(&Bead::EXAMPLE, &Altered(Bead::EXAMPLE), rule, [0.8], [1.3], 1.5)
+        orders(&Bead::EXAMPLE, &Altered(Bead::EXAMPLE), By(rule), [0.8], [1.3], 1.5)
     }
 
     #[test]

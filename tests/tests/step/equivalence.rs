@@ -15,7 +15,7 @@ use dalembert::step::{
     ClosedForm, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Fused, Momenta, Segment,
     StepKernel,
 };
-use dalembert::system::Derivatives;
+use dalembert::system::{ActingForce, Derivatives};
 use dalembert::{Discretise, Lagrangian, Midpoint, State, Trapezoidal};
 use dalembert_tests::systems::DoublePendulum;
 
@@ -106,7 +106,14 @@ impl<R> Lagrangian<2> for Regauged<R> {
     }
 }
 
-impl<R: SolvedForVelocity> Fused<R, 2> for Regauged<R>
+/// The rule that is regauged.
+struct Again<R>(R);
+
+impl<R> SolvedForVelocity for Again<R> {}
+
+impl<R> ActingForce<2> for Regauged<R> {}
+
+impl<R: SolvedForVelocity> Fused<Again<R>, 2> for Regauged<R>
 where
     DoublePendulum: DiscreteRayleigh<R, 2, Scalar = f64>,
 {
@@ -114,19 +121,19 @@ where
     type Memory = VelocityHistory<f64, 2>;
 
     fn step_kernel(&self, segment: &Segment<f64, 2>) -> StepKernel<f64, 2> {
-        let l = self.discrete_lagrangian_derivatives(segment);
-        let force = self.discrete_force_derivatives(segment);
+        let l = ClosedForm::<Again<R>, 2>::discrete_lagrangian_derivatives(self, segment);
+        let force = ClosedForm::<Again<R>, 2>::discrete_force_derivatives(self, segment);
         StepKernel { p0: -l.d1 - force.minus.value, matrix: -(l.d12 + force.minus.d2) * segment.h }
     }
 
     fn momenta(&self, segment: &Segment<f64, 2>) -> Momenta<f64, 2> {
-        let l = self.discrete_lagrangian_derivatives(segment);
-        let force = self.discrete_force(segment);
+        let l = ClosedForm::<Again<R>, 2>::discrete_lagrangian_derivatives(self, segment);
+        let force = ClosedForm::<Again<R>, 2>::discrete_force(self, segment);
         Momenta { p0: -l.d1 - force.minus, p1: l.d2 + force.plus }
     }
 }
 
-impl<R: SolvedForVelocity> ClosedForm<R, 2> for Regauged<R>
+impl<R: SolvedForVelocity> ClosedForm<Again<R>, 2> for Regauged<R>
 where
     DoublePendulum: DiscreteRayleigh<R, 2, Scalar = f64>,
 {
@@ -139,7 +146,7 @@ where
     }
 
     fn discrete_force(&self, segment: &Segment<f64, 2>) -> DiscreteForce<f64, 2> {
-        let force = self.discrete_force_derivatives(segment);
+        let force = ClosedForm::<Again<R>, 2>::discrete_force_derivatives(self, segment);
         DiscreteForce { minus: force.minus.value, plus: force.plus.value }
     }
 
@@ -168,7 +175,7 @@ where
     let start = State::from_velocity(&system, [1.1, -0.6], [0.3, 1.2]).unwrap();
     let shifted = |state: State<f64, 2>| State { p: state.p - (PSI.gradient)(&state.q) * 2.0, ..state };
     let plain = system.by(rule, 0.1).run(start);
-    let other = regauged.by(rule, 0.1).run(shifted(start));
+    let other = regauged.by(Again(rule), 0.1).run(shifted(start));
     plain.zip(other).take(steps).fold([0.0, 0.0], |[in_q, in_p]: [f64; 2], (a, b)| {
         let (a, b) = (a.unwrap().state, b.unwrap().state);
         [in_q.max((a.q - b.q).amax()), in_p.max((shifted(a).p - b.p).amax())]

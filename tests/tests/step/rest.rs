@@ -204,7 +204,7 @@ fn cancelling_terms<L, const N: usize>(system: &L, q: [f64; N], v: [f64; N]) -> 
 where
     L: Fused<Midpoint, N, Scalar = f64>,
 {
-    system.cancelling_terms(&Segment { q0: q.into(), v: v.into(), h: 0.1 }).into()
+    Fused::<Midpoint, N>::cancelling_terms(system, &Segment { q0: q.into(), v: v.into(), h: 0.1 }).into()
 }
 
 #[test]

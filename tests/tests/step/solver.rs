@@ -2,8 +2,8 @@
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::run::VelocityHistory;
-use dalembert::step::{ClosedForm, Fused, Momenta, Quantity, Segment, StepKernel};
-use dalembert::system::{Derivatives, Function};
+use dalembert::step::{Fused, Momenta, Quantity, Segment, StepKernel};
+use dalembert::system::{ActingForce, Derivatives, Function};
 use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
 use dalembert_tests::systems::{Bead, DoublePendulum, Pendulum};
 
@@ -277,6 +277,8 @@ impl Lagrangian<1> for Quantised {
     }
 }
 
+impl ActingForce<1> for Quantised {}
+
 impl Fused<Midpoint, 1> for Quantised {
     type Matrix = SMatrix<f64, 1, 1>;
     type Memory = VelocityHistory<f64, 1>;
@@ -289,28 +291,6 @@ impl Fused<Midpoint, 1> for Quantised {
     fn momenta(&self, segment: &Segment<f64, 1>) -> Momenta<f64, 1> {
         let p = self.lagrangian_derivatives(&segment.q0, &segment.v).d2;
         Momenta { p0: p, p1: p }
-    }
-}
-
-impl ClosedForm<Midpoint, 1> for Quantised {
-    fn discrete_lagrangian(&self, segment: &Segment<f64, 1>) -> f64 {
-        segment.h * self.lagrangian(&segment.q0, &segment.v)
-    }
-
-    fn discrete_lagrangian_derivatives(&self, segment: &Segment<f64, 1>) -> Derivatives<f64, 1> {
-        let l = self.lagrangian_derivatives(&segment.q0, &segment.v);
-        Derivatives {
-            value: segment.h * l.value,
-            d1: -l.d2,
-            d2: l.d2,
-            d11: l.d22 / segment.h,
-            d12: -l.d22 / segment.h,
-            d22: l.d22 / segment.h,
-        }
-    }
-
-    fn segment_energy(&self, segment: &Segment<f64, 1>) -> f64 {
-        self.energy(&segment.q0, &segment.v)
     }
 }
 

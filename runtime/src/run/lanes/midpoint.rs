@@ -148,7 +148,7 @@ where
 {
     for _ in 0..count {
         let mut fields = steps.fields;
-        if L::IS_TIMED {
+        if <L as DiscreteInLanes<Midpoint, N>>::IS_TIMED {
             fields = L::later_in_lanes(&fields, &steps.clocks.elapsed(steps.h));
         }
         let guess = steps.extrapolation();

@@ -3,12 +3,13 @@
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::rayleigh::{Potential, structure};
+use dalembert::rules::SolvedForVelocity;
 use dalembert::run::VelocityHistory;
 use dalembert::samples::{self, Pair};
 use dalembert::step::{
     ClosedForm, DiscreteForce, DiscreteForceDerivatives, Fused, Momenta, Segment, StepKernel,
 };
-use dalembert::system::{CovectorDerivatives, Derivatives};
+use dalembert::system::{ActingForce, CovectorDerivatives, Derivatives};
 use dalembert::{Lagrangian, Midpoint, Trapezoidal, rayleigh_system};
 
 /// Linear drag with any matrix, f = −C v.
@@ -117,7 +118,15 @@ impl<G> Lagrangian<2> for AtStart<G> {
     }
 }
 
-impl<G: Covector> Fused<Midpoint, 2> for AtStart<G> {
+/// A rule of one's own, whose discrete objects are the system's.
+#[derive(Clone, Copy)]
+struct ByHand;
+
+impl SolvedForVelocity for ByHand {}
+
+impl<G> ActingForce<2> for AtStart<G> {}
+
+impl<G: Covector> Fused<ByHand, 2> for AtStart<G> {
     type Matrix = SMatrix<f64, 2, 2>;
     type Memory = VelocityHistory<f64, 2>;
     fn step_kernel(&self, segment: &Segment<f64, 2>) -> StepKernel<f64, 2> {
@@ -128,17 +137,17 @@ impl<G: Covector> Fused<Midpoint, 2> for AtStart<G> {
     }
 }
 
-impl<G: Covector> ClosedForm<Midpoint, 2> for AtStart<G> {
+impl<G: Covector> ClosedForm<ByHand, 2> for AtStart<G> {
     fn discrete_lagrangian(&self, segment: &Segment<f64, 2>) -> f64 {
         segment.v.norm_squared() * (segment.h / 2.0)
     }
     fn discrete_lagrangian_derivatives(&self, segment: &Segment<f64, 2>) -> Derivatives<f64, 2> {
         let (v, m) = (segment.v, SMatrix::identity() / segment.h);
-        let value = self.discrete_lagrangian(segment);
+        let value = ClosedForm::<ByHand, 2>::discrete_lagrangian(self, segment);
         Derivatives { value, d1: -v, d2: v, d11: m, d12: -m, d22: m }
     }
     fn segment_energy(&self, segment: &Segment<f64, 2>) -> f64 {
-        self.discrete_lagrangian(segment) / segment.h
+        ClosedForm::<ByHand, 2>::discrete_lagrangian(self, segment) / segment.h
     }
     fn discrete_force(&self, segment: &Segment<f64, 2>) -> DiscreteForce<f64, 2> {
         DiscreteForce { minus: self.0.at(&segment.q0).value, plus: SVector::zeros() }
@@ -180,7 +189,7 @@ impl Covector for Vortex {
 /// A hand-written system; the mixed condition holds, also with the transpose, and the missing one fails.
 #[test]
 fn the_mixed_condition_alone_is_not_enough() {
-    let report = structure(&AtStart(Turning), Midpoint, 0.1, &plane()).unwrap();
+    let report = structure(&AtStart(Turning), ByHand, 0.1, &plane()).unwrap();
     assert!(report.mixed.holds() && report.plus.holds() && !report.minus.holds(), "{report}");
     assert_eq!(report.minus.worst.value.abs(), 1.0);
 }
@@ -189,7 +198,7 @@ fn the_mixed_condition_alone_is_not_enough() {
 #[test]
 fn around_a_hole_the_paths_tell() {
     let start = Pair::new(vector![1.0, 0.1], vector![0.0, 0.0]);
-    let potential = Potential::new(&AtStart(Vortex), Midpoint, 0.1, start);
+    let potential = Potential::new(&AtStart(Vortex), ByHand, 0.1, start);
     // Straight across above the origin, or along the edges by way of (−1, 0.1), (−1, −0.3): the same
     // half-plane x < 0.
     let same_side = [Pair::new(vector![-1.0, 0.4], vector![0.2, 0.2])];
