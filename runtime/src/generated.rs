@@ -1,6 +1,7 @@
 //! Names in the code that the attributes write: all of them, and nothing else. Users find them in the root
 //! of the crate, and in [`system`](crate::system), [`step`](crate::step) and the other modules.
 
+pub use crate::described;
 #[cfg(feature = "std")]
 pub use crate::numbers::dual;
 pub use crate::system::{missing, verification};

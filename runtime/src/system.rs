@@ -10,6 +10,7 @@
 
 mod acting_force;
 mod continuous;
+mod described;
 mod driven;
 mod error;
 mod fields;
@@ -33,6 +34,7 @@ pub use crate::numbers::{
 pub use acting_force::ActingForce;
 pub use continuous::{Force, Lagrangian, Rayleigh};
 pub(crate) use continuous::{derivatives_apart, is_timed};
+pub use described::Described;
 pub use driven::{Driven, Input};
 pub use error::{Compared, Function, GeneratedDiffers};
 pub use fields::{ScalarField, VectorField};

@@ -52,7 +52,7 @@ pub fn system(
     let item = as_written(system, &functions, is_portable);
     let warning = refusal.as_ref().map(|refusal| notice::warning(system, refusal));
     let bound = notice::bound(system);
-    let view = view::definition(system);
+    let (view, description) = (view::definition(system), view::description(system));
     let (conditions, quiet_twins) = (conditions(system.source), quiet_twins());
     let implementation = write::system(system, engine(system, refusal));
     // Bodies stand apart from the implementations: the fewer names are imported beside a user's code, the
@@ -65,6 +65,8 @@ pub fn system(
         #bound
 
         #view
+
+        #description
 
         #(#conditions)*
         #quiet_twins

@@ -37,12 +37,14 @@ pub use stages::CONDITIONAL;
 /// `is_portable`: the elementary functions are the runtime's, in the user's bodies too.
 pub fn system(system: &System<'_>, written: WrittenOut, is_portable: bool) -> TokenStream {
     let item = as_written(system, &written.run, is_portable);
-    let view = view::definition(system);
+    let (view, description) = (view::definition(system), view::description(system));
     let implementation = write::system(system, written.functions);
     quote! {
         #item
 
         #view
+
+        #description
 
         #implementation
     }

@@ -1,10 +1,10 @@
 //! Traits implemented on request: derivatives by the input and by parameters, and second ones.
 
 use proc_macro2::TokenStream;
-use quote::{ToTokens, quote};
+use quote::quote;
 
 use super::super::model::{Home, System};
-use super::view::subject;
+use super::view::{parameter_names, subject};
 
 /// `impl Driven<2, 1> for DrivenArm<'_>`, with the body of either engine.
 pub fn driven(system: &System<'_>, by_input: TokenStream) -> Option<TokenStream> {
@@ -22,8 +22,7 @@ pub fn driven(system: &System<'_>, by_input: TokenStream) -> Option<TokenStream>
 pub fn by_parameters(system: &System<'_>, functions: TokenStream) -> TokenStream {
     let (n, p) = (system.degrees.times(1), system.parameter_count());
     let subject = subject(system, system.home());
-    let names =
-        system.parameters.iter().map(|parameter| parameter.to_token_stream().to_string().replace(' ', ""));
+    let names = parameter_names(system);
     quote! {
         #[automatically_derived]
         impl Parameters<#n, #p> for #subject {

@@ -3,7 +3,7 @@
 //! The comment above each quotation shows what it expands to.
 
 use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 
 use super::super::model::{Home, Part, System};
 use super::super::syntax::with_words;
@@ -110,6 +110,35 @@ pub fn definition(system: &System<'_>) -> Option<TokenStream> {
             }
         }
     })
+}
+
+/// The description of the system for bindings to other languages.
+pub fn description(system: &System<'_>) -> TokenStream {
+    let System { name: system_name, scalar, .. } = system;
+    let (conditions, n) = (conditions(system.source), system.degrees.times(1));
+    let words = format_ident!("described_{}", system_name);
+    let has_input = system.input.is_some();
+    let view = system.has_view().then(|| {
+        let (view, function) =
+            (name(system), format_ident!("{}", if has_input { "driven" } else { "at_time" }));
+        quote!([#view #function])
+    });
+    let input = system.input.as_ref().map(|input| input.times(1)).map(|m| quote!(, input u #m));
+    let time = system.timed.any().then(|| quote!(, time t));
+    let parameters = (!system.parameters.is_empty()).then(|| {
+        let names = parameter_names(system);
+        quote!(, parameters [#(#names),*])
+    });
+    // described! { Arm [DrivenArm driven]: f64, 2, input u 1; described_Arm $ }
+    quote! {
+        #(#conditions)*
+        ::dalembert::generated::described! { #system_name #view: #scalar, #n #input #time #parameters; #words $ }
+    }
+}
+
+/// The listed parameters as they are named: `m`, `c[0]`.
+pub fn parameter_names(system: &System<'_>) -> impl Iterator<Item = String> {
+    system.parameters.iter().map(|parameter| parameter.to_token_stream().to_string().replace(' ', ""))
 }
 
 /// `fn later`, where there is a time.

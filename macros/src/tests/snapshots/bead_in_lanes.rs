@@ -11,6 +11,9 @@ impl Bead {
         0.5 * self.r * v[0] * v[0]
     }
 }
+::dalembert::generated::described! {
+    Bead : f64, 1; described_Bead $
+}
 #[allow(
     clippy::all,
     clippy::pedantic,

@@ -12,6 +12,9 @@ impl Chain {
         0.5 * square + 0.25 * beta * square * square
     }
 }
+::dalembert::generated::described! {
+    Chain : f64, 4; described_Chain $
+}
 #[allow(
     clippy::all,
     clippy::pedantic,

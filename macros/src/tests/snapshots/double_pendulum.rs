@@ -14,6 +14,9 @@ impl DoublePendulum {
         0.5 * self.c[0] * v[0] * v[0] + 0.5 * self.c[1] * relative * relative
     }
 }
+::dalembert::generated::described! {
+    DoublePendulum : f64, 2; described_DoublePendulum $
+}
 #[allow(
     clippy::all,
     clippy::pedantic,

@@ -38,6 +38,9 @@ impl Arm {
         }
     }
 }
+::dalembert::generated::described! {
+    Arm[DrivenArm driven] : f64, 1, input u 1, time t; described_Arm $
+}
 #[allow(
     clippy::all,
     clippy::pedantic,

@@ -7,6 +7,9 @@ impl Ring {
         0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
     }
 }
+::dalembert::generated::described! {
+    Ring : f64, 2; described_Ring $
+}
 #[allow(
     clippy::all,
     clippy::pedantic,

@@ -17,6 +17,9 @@ impl Cart {
         [self.a.powf(q[0]), 0.0]
     }
 }
+::dalembert::generated::described! {
+    Cart : f64, 2; described_Cart $
+}
 #[allow(
     clippy::all,
     clippy::pedantic,

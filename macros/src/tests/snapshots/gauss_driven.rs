@@ -32,6 +32,10 @@ impl Arm {
         }
     }
 }
+::dalembert::generated::described! {
+    Arm[DrivenArm driven] : f64, 1, input u 1, time t, parameters["gain"]; described_Arm
+    $
+}
 #[allow(
     clippy::all,
     clippy::pedantic,

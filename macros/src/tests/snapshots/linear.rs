@@ -14,6 +14,9 @@ struct Linear {
     /// Parameter `c` of [`linear`].
     c: f64,
 }
+::dalembert::generated::described! {
+    Linear : f64, 2; described_Linear $
+}
 #[allow(
     clippy::all,
     clippy::pedantic,

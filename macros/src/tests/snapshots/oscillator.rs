@@ -13,6 +13,9 @@ pub struct Oscillator {
     /// Parameter `r` of [`oscillator`].
     pub r: f64,
 }
+::dalembert::generated::described! {
+    Oscillator : f64, 1; described_Oscillator $
+}
 #[allow(
     clippy::all,
     clippy::pedantic,

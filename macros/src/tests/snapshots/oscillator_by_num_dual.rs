@@ -16,6 +16,9 @@ const _: () = ::core::assert!(
     1 <= 32,
     "with more than 32 coordinates dual numbers can overflow the stack of a thread; have the derivatives written out: `derivatives = expanded` says what stands in the way"
 );
+::dalembert::generated::described! {
+    Oscillator : f64, 1; described_Oscillator $
+}
 #[allow(
     clippy::all,
     clippy::pedantic,

@@ -10,6 +10,9 @@ impl Pendulum {
         6.0 / self.g
     }
 }
+::dalembert::generated::described! {
+    Pendulum : f64, 1; described_Pendulum $
+}
 #[allow(
     clippy::all,
     clippy::pedantic,

@@ -31,6 +31,10 @@ impl Joint {
         }
     }
 }
+::dalembert::generated::described! {
+    Joint[DrivenJoint driven] : f64, 1, input u 1, parameters["l", "c[0]"];
+    described_Joint $
+}
 #[allow(
     clippy::all,
     clippy::pedantic,

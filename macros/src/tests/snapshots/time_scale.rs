@@ -10,6 +10,9 @@ impl Kepler {
         (q[0] * q[0] + q[1] * q[1]).sqrt()
     }
 }
+::dalembert::generated::described! {
+    Kepler : f64, 2; described_Kepler $
+}
 #[allow(
     clippy::all,
     clippy::pedantic,
