@@ -13,7 +13,7 @@ mod oscillator;
 mod ring;
 
 use cart_pole::{CartPole, DrivenCartPole};
-use dalembert_c::fields as parameters;
+use dalembert_face::fields as parameters;
 use oscillator::ShakenOscillator;
 use ring::Ring;
 

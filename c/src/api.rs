@@ -28,50 +28,48 @@
 ///     }
 /// }
 ///
-/// dalembert_c::c_api! {
-///     cart: Cart, coordinates: 1, rule: Midpoint, driven: DrivenCart, inputs: 1, parameters: 1
-/// }
+/// dalembert_c::c_api! { cart: Cart, rule: Midpoint }
 ///
 /// fn main() {
 ///     assert!(cart::HEADER.to_string().contains("dalembert_status cart_step("));
 /// }
 /// ```
 ///
-/// | entry | what it says |
-/// |---|---|
-/// | `cart: Cart` | the prefix of all names in C, and the struct, which [`parameters!`](crate::parameters) declares |
-/// | `coordinates: 1` | N |
-/// | `rule: Midpoint` | the rule: one of the attribute's, or `Gauss<4>` |
-/// | `driven: DrivenCart, inputs: 1` | where the force takes an input: the type of the system with it, which the attribute makes, and its length |
-/// | `driven: DrivenCart, inputs: 1, time` | where L, R or f take the time too |
-/// | `at_time: CartAtTime` | where they take the time and no input |
-/// | `parameters: 1` | how many parameters the attribute lists: the linearised step has derivatives by them. May be left out |
+/// `cart` is the prefix of all names in C; `Cart` the struct, which [`parameters!`](crate::parameters) declares and
+/// the attribute describes, imported by its name where it stands in another module of the crate; the rule one of the
+/// attribute's, or `Gauss<4>`. The functions take u and t where L, R or f do, and a linearised step has derivatives
+/// by the parameters that the attribute lists. Of a system of another crate one says besides what the functions take,
+/// `takes: [u, t]`, `[u]`, `[t]` or `[]`: it is held against the system.
 ///
 /// It makes a module of the prefix's name with the functions, which C calls and Rust cannot do without
 /// `unsafe`, and `HEADER`, which is written by `HEADER.to_string()`.
 #[macro_export]
 macro_rules! c_api {
-    ($prefix:ident: $system:ident, coordinates: $n:literal, rule: $rule:ty, driven: $view:ident, inputs: $inputs:literal, time
-        $(, parameters: $parameters:literal)? $(,)?) => {
-        $crate::c_api! { @functions $prefix $system $n [$rule] ['a $view<'a>] [$view<'static>] inputs [u $inputs] time [t CScalar]
-            |system| system.driven(u, t), parameters [$($parameters)?] }
+    ($prefix:ident: $system:ident, rule: $rule:ty $(,)?) => {
+        $system! { $crate::c_functions { $prefix $system [$rule] } }
     };
-    ($prefix:ident: $system:ident, coordinates: $n:literal, rule: $rule:ty, driven: $view:ident, inputs: $inputs:literal
-        $(, parameters: $parameters:literal)? $(,)?) => {
-        $crate::c_api! { @functions $prefix $system $n [$rule] ['a $view<'a>] [$view<'static>] inputs [u $inputs] time []
-            |system| system.driven(u), parameters [$($parameters)?] }
+    ($prefix:ident: $system:ident, rule: $rule:ty, takes: [$($taken:ident),*] $(,)?) => {
+        $crate::c_api! { @taken $prefix $system [$rule] $($taken)* }
     };
-    ($prefix:ident: $system:ident, coordinates: $n:literal, rule: $rule:ty, at_time: $view:ident
-        $(, parameters: $parameters:literal)? $(,)?) => {
-        $crate::c_api! { @functions $prefix $system $n [$rule] ['a $view<'a>] [$view<'static>] inputs [] time [t CScalar]
-            |system| system.at_time(t), parameters [$($parameters)?] }
+    (@taken $prefix:ident $system:ident [$rule:ty]) => {
+        $crate::c_functions! { $prefix $system [$rule] }
     };
-    ($prefix:ident: $system:ident, coordinates: $n:literal, rule: $rule:ty $(, parameters: $parameters:literal)? $(,)?) => {
-        $crate::c_api! { @functions $prefix $system $n [$rule] ['a $system] [$system] inputs [] time []
-            |system| *system, parameters [$($parameters)?] }
+    (@taken $prefix:ident $system:ident [$rule:ty] u) => {
+        $crate::c_functions! { $prefix $system [$rule] input u }
     };
-    (@functions $prefix:ident $system:ident $n:literal [$rule:ty] [$life:lifetime $view:ty] [$kind:ty] inputs [$($u:ident $inputs:literal)?]
-        time [$($t:ident $time:ident)?] |$of:ident| $call:expr, parameters [$($parameters:literal)?]) => {
+    (@taken $prefix:ident $system:ident [$rule:ty] t) => {
+        $crate::c_functions! { $prefix $system [$rule] time t }
+    };
+    (@taken $prefix:ident $system:ident [$rule:ty] u t) => {
+        $crate::c_functions! { $prefix $system [$rule] input u time t }
+    };
+}
+
+/// Writes what [`c_api!`](crate::c_api) promises, with u and t where the system takes them.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! c_functions {
+    ($prefix:ident $system:ident [$rule:ty] $(input $u:ident)? $(time $t:ident)?) => {
         #[doc = concat!("The C functions of [`", stringify!($system), "`], `", stringify!($prefix), "_init` and so on; [`HEADER`](", stringify!($prefix), "::HEADER) declares them.")]
         ///
         /// # Safety
@@ -83,23 +81,35 @@ macro_rules! c_api {
             // Types by their paths: the user's own may have the same names.
             use $crate::boundary::{calls, read};
             use $crate::dalembert::system::Scalar as _;
+            use $crate::face::Interface as _;
             use $crate::machine;
 
-            const _: Option<machine::Checked<$kind, $rule, $n>> = None;
-            type CScalar = <CSystem as machine::Interface<$n>>::Scalar;
-            type CVector = [CScalar; $n];
+            const C_COORDINATES: usize = $crate::face::coordinates(core::marker::PhantomData::<fn() -> $system>);
+            type CView<'a> = <$system as $crate::face::Described<C_COORDINATES>>::View<'a>;
+            type CInput = <$system as $crate::face::Described<C_COORDINATES>>::Input;
+            const C_INPUTS: usize = <$system as $crate::face::Described<C_COORDINATES>>::INPUTS;
+            const C_PARAMETERS: &[&str] = <$system as $crate::face::Described<C_COORDINATES>>::PARAMETERS;
 
-            /// The system as C sees it.
-            pub enum CSystem {}
+            const _: () = assert!(
+                (C_INPUTS > 0) == $crate::c_functions!(@or false; $(!stringify!($u).is_empty())?)
+                    && <$system as $crate::face::Described<C_COORDINATES>>::TAKES_TIME
+                        == $crate::c_functions!(@or false; $(!stringify!($t).is_empty())?),
+                "`takes` has u where the force takes an input, and t where L, R or f take the time",
+            );
+            const _: Option<machine::Checked<CView<'static>, $rule, C_COORDINATES>> = None;
+            type CScalar = <$system as $crate::face::Described<C_COORDINATES>>::Scalar;
+            type CVector = [CScalar; C_COORDINATES];
+
+            /// The system by its rule.
+            type CSystem = $crate::face::By<$system, $rule>;
 
             /// The caller's memory: opaque in C.
-            pub type CMemory = calls::Memory<CSystem, $n>;
+            pub type CMemory = calls::Memory<CSystem, C_COORDINATES>;
 
-            const TIMES: usize = [$(stringify!($t),)? ""].len() - 1;
-            const LAYOUT: u64 = $crate::layout(
-                <$system as $crate::Fields>::FIELDS,
-                &[stringify!($prefix), stringify!($rule), <CScalar as $crate::CType>::BASE],
-                &[$n, 0 $(+ $inputs)?, 0 $(+ $parameters)?, TIMES, size_of::<$system>()],
+            const LAYOUT: u64 = $crate::face::layout(
+                <$system as $crate::face::Fields>::FIELDS,
+                &[stringify!($prefix), stringify!($rule), <CScalar as $crate::face::FieldType>::BASE],
+                &[C_COORDINATES, C_INPUTS, C_PARAMETERS.len(), <$system as $crate::face::Described<C_COORDINATES>>::TAKES_TIME as usize, size_of::<$system>()],
             );
             const _: () = assert!(align_of::<CMemory>() <= 8, "the header aligns the memory to 8 bytes");
 
@@ -108,15 +118,15 @@ macro_rules! c_api {
                 prefix: stringify!($prefix),
                 rule: stringify!($rule),
                 layout: LAYOUT,
-                documentation: <$system as $crate::Fields>::DOCUMENTATION,
-                fields: <$system as $crate::Fields>::FIELDS,
+                documentation: <$system as $crate::face::Fields>::DOCUMENTATION,
+                fields: <$system as $crate::face::Fields>::FIELDS,
                 parameters_size: size_of::<$system>(),
                 memory_size: size_of::<CMemory>(),
-                scalar: <CScalar as $crate::CType>::BASE,
-                coordinates: $n,
-                inputs: 0 $(+ $inputs)?,
-                takes_time: TIMES == 1,
-                parameters: [$(&<$kind as $crate::dalembert::system::Parameters<$n, $parameters>>::PARAMETERS as &[&str],)? &[]][0],
+                scalar: <CScalar as $crate::face::FieldType>::BASE,
+                coordinates: C_COORDINATES,
+                inputs: C_INPUTS,
+                takes_time: <$system as $crate::face::Described<C_COORDINATES>>::TAKES_TIME,
+                parameters: C_PARAMETERS,
             };
 
             /// The derivatives of a step, row by row.
@@ -124,57 +134,24 @@ macro_rules! c_api {
             #[repr(C)]
             pub struct CLinearized {
                 /// ∂(q1, p1)/∂(q0, p0).
-                pub by_state: [[CScalar; 2 * $n]; 2 * $n],
-                $(
-                    /// ∂(q1, p1)/∂u.
-                    pub by_input: [[CScalar; $inputs]; 2 * $n],
-                )?
-                $(
-                    /// ∂(q1, p1)/∂θ.
-                    pub by_parameters: [[CScalar; $parameters]; 2 * $n],
-                )?
+                pub by_state: [[CScalar; 2 * C_COORDINATES]; 2 * C_COORDINATES],
+                /// ∂(q1, p1)/∂u; nothing without an input.
+                pub by_input: [[CScalar; C_INPUTS]; 2 * C_COORDINATES],
+                /// ∂(q1, p1)/∂θ; nothing where no parameters are listed.
+                pub by_parameters: [[CScalar; C_PARAMETERS.len()]; 2 * C_COORDINATES],
             }
 
             // SAFETY: repr(C), arrays of numbers of one type alone.
             unsafe impl $crate::boundary::Plain for CLinearized {}
 
-            impl machine::Interface<$n> for CSystem {
-                const SIGNATURE: u64 = LAYOUT;
-                type Parameters = $system;
-                type Rule = $rule;
-                type Scalar = <$kind as $crate::dalembert::Lagrangian<$n>>::Scalar;
-                type Given = ($([CScalar; $inputs],)? $($time,)?);
-                type Linearized = CLinearized;
-                type RunMemory = <$kind as $crate::dalembert::step::Flow<$rule, $n>>::RunMemory;
-                type Kind = $kind;
-                type View<$life> = $view;
-
-                fn given(input: &[CScalar], time: CScalar) -> Option<Self::Given> {
-                    let _ = (input, time);
-                    Some(($(<[CScalar; $inputs]>::try_from(input).ok()?,)? $({ let $t: $time = time; $t },)?))
-                }
-
-                fn view($of: &$system, ($($u,)? $($t,)?): Self::Given) -> Self::View<'_> {
-                    $call
-                }
-
-                fn linearized(
-                    taken: &$crate::dalembert::step::StepTaken<'_, Self::View<'_>, $rule, $n>,
-                ) -> Result<CLinearized, $crate::dalembert::StepError> {
-                    Ok(CLinearized {
-                        by_state: machine::rows_by_state(&taken.by_state()?),
-                        $(by_input: machine::rows_by(&taken.by_input::<$inputs>()?),)?
-                        $(by_parameters: machine::rows_by(&taken.by_parameters::<$parameters>()?),)?
-                    })
-                }
-
-                fn rows(linearized: &CLinearized) -> [&[CScalar]; 3] {
-                    [
-                        linearized.by_state.as_flattened(),
-                        [$(<[[CScalar; $inputs]]>::as_flattened(&linearized.by_input),)? &[]][0],
-                        [$(<[[CScalar; $parameters]]>::as_flattened(&linearized.by_parameters),)? &[]][0],
-                    ]
-                }
+            fn linearized(
+                taken: &$crate::dalembert::step::StepTaken<'_, CView<'_>, $rule, C_COORDINATES>,
+            ) -> Result<CLinearized, $crate::dalembert::StepError> {
+                Ok(CLinearized {
+                    by_state: machine::rows_by_state(&taken.by_state()?),
+                    by_input: machine::rows(CSystem::by_input(taken)?.as_ref()),
+                    by_parameters: machine::rows(CSystem::by_parameters(taken)?.as_ref()),
+                })
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_init_with"))]
@@ -185,38 +162,38 @@ macro_rules! c_api {
                 layout: u64,
                 parameters: *const $system,
                 h: CScalar,
-                $($t: $time,)?
+                $($t: CScalar,)?
                 q: *const CVector,
                 v: *const CVector,
             ) -> $crate::Status {
-                let given = || Ok(($([CScalar::constant(0.0); $inputs],)? $(machine::time($t)?,)?));
+                let given = || Ok((<CInput as $crate::face::Input<CScalar>>::zero(), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?)));
                 // SAFETY: the caller's promise.
-                unsafe { calls::init::<CSystem, $n>(memory, (size, layout), parameters, h, given, [q, v]) }
+                unsafe { calls::init::<CSystem, C_COORDINATES>(memory, LAYOUT, (size, layout), parameters, h, given, [q, v]) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_step"))]
             #[doc = "Takes a step."]
             pub unsafe extern "C" fn step(
                 memory: *mut CMemory,
-                $($u: *const [CScalar; $inputs],)?
-                $($t: $time,)?
+                $($u: *const CInput,)?
+                $($t: CScalar,)?
                 report: *mut $crate::CReport,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::step::<CSystem, $n>(memory, || Ok(($(machine::input(read($u)?)?,)? $(machine::time($t)?,)?)), report) }
+                unsafe { calls::step::<CSystem, C_COORDINATES>(memory, LAYOUT, || Ok(($crate::c_functions!(@or <CInput as $crate::face::Input<CScalar>>::zero(); $(machine::input(read($u)?)?)?), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), report) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_step_linearized"))]
             #[doc = "Takes a step, and linearises it."]
             pub unsafe extern "C" fn step_linearized(
                 memory: *mut CMemory,
-                $($u: *const [CScalar; $inputs],)?
-                $($t: $time,)?
+                $($u: *const CInput,)?
+                $($t: CScalar,)?
                 report: *mut $crate::CReport,
                 linearized: *mut CLinearized,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::step_linearized::<CSystem, $n>(memory, || Ok(($(machine::input(read($u)?)?,)? $(machine::time($t)?,)?)), report, linearized) }
+                unsafe { calls::step_linearized::<CSystem, _, C_COORDINATES>(memory, LAYOUT, || Ok(($crate::c_functions!(@or <CInput as $crate::face::Input<CScalar>>::zero(); $(machine::input(read($u)?)?)?), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), report, linearized, self::linearized) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_state"))]
@@ -227,29 +204,29 @@ macro_rules! c_api {
                 p: *mut CVector,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::state::<CSystem, $n>(memory, [q, p]) }
+                unsafe { calls::state::<CSystem, C_COORDINATES>(memory, LAYOUT, [q, p]) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_velocity"))]
             #[doc = "The velocity of the present state."]
             pub unsafe extern "C" fn velocity(
                 memory: *const CMemory,
-                $($t: $time,)?
+                $($t: CScalar,)?
                 v: *mut CVector,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::velocity::<CSystem, $n>(memory, || Ok(($([CScalar::constant(0.0); $inputs],)? $(machine::time($t)?,)?)), v) }
+                unsafe { calls::velocity::<CSystem, C_COORDINATES>(memory, LAYOUT, || Ok((<CInput as $crate::face::Input<CScalar>>::zero(), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), v) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_energy"))]
             #[doc = "The energy of the present state."]
             pub unsafe extern "C" fn energy(
                 memory: *const CMemory,
-                $($t: $time,)?
+                $($t: CScalar,)?
                 energy: *mut CScalar,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::energy::<CSystem, $n>(memory, || Ok(($([CScalar::constant(0.0); $inputs],)? $(machine::time($t)?,)?)), energy) }
+                unsafe { calls::energy::<CSystem, C_COORDINATES>(memory, LAYOUT, || Ok((<CInput as $crate::face::Input<CScalar>>::zero(), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), energy) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_time"))]
@@ -259,21 +236,21 @@ macro_rules! c_api {
                 time: *mut f64,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::time::<CSystem, $n>(memory, time) }
+                unsafe { calls::time::<CSystem, C_COORDINATES>(memory, LAYOUT, time) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_state_after"))]
             #[doc = "The state some time from now, by one step from the present state, which stays."]
             pub unsafe extern "C" fn state_after(
                 memory: *const CMemory,
-                $($u: *const [CScalar; $inputs],)?
-                $($t: $time,)?
+                $($u: *const CInput,)?
+                $($t: CScalar,)?
                 after: CScalar,
                 q: *mut CVector,
                 p: *mut CVector,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::state_after::<CSystem, $n>(memory, || Ok(($(machine::input(read($u)?)?,)? $(machine::time($t)?,)?)), after, [q, p]) }
+                unsafe { calls::state_after::<CSystem, C_COORDINATES>(memory, LAYOUT, || Ok(($crate::c_functions!(@or <CInput as $crate::face::Input<CScalar>>::zero(); $(machine::input(read($u)?)?)?), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), after, [q, p]) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_set_state"))]
@@ -284,7 +261,7 @@ macro_rules! c_api {
                 p: *const CVector,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::set_state::<CSystem, $n>(memory, [q, p]) }
+                unsafe { calls::set_state::<CSystem, C_COORDINATES>(memory, LAYOUT, [q, p]) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_set_parameters"))]
@@ -294,7 +271,7 @@ macro_rules! c_api {
                 parameters: *const $system,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::set_parameters::<CSystem, $n>(memory, parameters) }
+                unsafe { calls::set_parameters::<CSystem, C_COORDINATES>(memory, LAYOUT, parameters) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_set_step_size"))]
@@ -304,7 +281,7 @@ macro_rules! c_api {
                 h: CScalar,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::set_step_size::<CSystem, $n>(memory, h) }
+                unsafe { calls::set_step_size::<CSystem, C_COORDINATES>(memory, LAYOUT, h) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_text"))]
@@ -314,4 +291,6 @@ macro_rules! c_api {
             }
         }
     };
+    (@or $other:expr;) => { $other };
+    (@or $other:expr; $own:expr) => { $own };
 }

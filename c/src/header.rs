@@ -2,7 +2,9 @@
 
 use core::fmt::{self, Display, Write};
 
-use crate::{Field, Status};
+use dalembert_face::Field;
+
+use crate::Status;
 
 mod class;
 
@@ -15,7 +17,7 @@ pub struct Header {
     pub prefix: &'static str,
     /// The rule.
     pub rule: &'static str,
-    /// See [`layout`](crate::layout).
+    /// See [`layout`](dalembert_face::layout).
     pub layout: u64,
     /// The documentation of the system, a line each.
     pub documentation: &'static [&'static str],

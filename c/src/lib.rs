@@ -35,6 +35,8 @@ extern crate std;
 
 #[doc(hidden)]
 pub use dalembert;
+#[doc(hidden)]
+pub use dalembert_face as face;
 
 mod api;
 #[doc(hidden)]
@@ -43,13 +45,11 @@ mod header;
 #[doc(hidden)]
 pub mod machine;
 mod no_panic;
-mod number;
 mod parameters;
 mod report;
 mod status;
 
 pub use header::Header;
-pub use number::Number;
-pub use parameters::{CParameters, CType, Field, Fields, layout};
+pub use parameters::CParameters;
 pub use report::CReport;
 pub use status::{Status, text};

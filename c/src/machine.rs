@@ -2,11 +2,11 @@
 
 use core::marker::PhantomData;
 
-use dalembert::nalgebra::SVector;
 use dalembert::run::DrivenTrajectory;
-use dalembert::step::{Flow, Linearizable, Memory, PhaseMatrix, Quantity, StateBy, StepTaken};
+use dalembert::step::{Flow, Linearizable, PhaseMatrix, Quantity};
 use dalembert::system::Scalar;
 use dalembert::{State, StepError};
+use dalembert_face::{Column, Interface};
 
 use crate::boundary::{Plain, refused};
 use crate::{CParameters, Status};
@@ -15,9 +15,8 @@ use crate::{CParameters, Status};
 /// compiler says so once, by the message of this trait.
 #[diagnostic::on_unimplemented(
     message = "C cannot step `{Self}` by `{M}` with {N} coordinates",
-    label = "no step with this number of coordinates, this rule, this input",
-    note = "`coordinates` is the length of q, `rule` one of those that `#[rayleigh_system(rule = …)]` lists, midpoint if none",
-    note = "a force with an input needs `driven: Driven…, inputs: …`; L, R or f with the time `time` behind them, or `at_time: …AtTime`"
+    label = "no step by this rule",
+    note = "`rule` is one of those that `#[rayleigh_system(rule = …)]` lists, midpoint if none"
 )]
 pub trait Stepped<M, const N: usize>: Linearizable<M, N> {}
 
@@ -27,51 +26,15 @@ impl<V: Linearizable<M, N>, M, const N: usize> Stepped<M, N> for V {}
 /// That a system is [`Stepped`], as a type: said before anything that follows from its not being so.
 pub struct Checked<V: Stepped<M, N>, M, const N: usize>(PhantomData<fn() -> (V, M)>);
 
-/// A system as C sees it: what [`c_api!`](crate::c_api) states once, so that the functions are the same for
-/// all.
-pub trait Interface<const N: usize>: Sized + 'static {
-    /// The signature that a memory of this system begins with: [`layout`](crate::layout).
-    const SIGNATURE: u64;
-    /// The struct of the system.
-    type Parameters: CParameters;
-    /// The rule.
-    type Rule: 'static;
-    /// `f64` or `f32`.
-    type Scalar: Scalar + Plain;
-    /// The input and the time of a step, as far as the system takes them.
-    type Given;
-    /// The derivatives of a step, as C reads them.
-    type Linearized: Plain;
-    /// The memory that a run keeps from step to step.
-    type RunMemory: for<'a> Memory<Self::View<'a>, Self::Rule, N> + Clone + 'static;
-    /// Views as a run names them.
-    type Kind: Stepped<Self::Rule, N, Scalar = Self::Scalar, RunMemory = Self::RunMemory> + 'static;
-    /// The system with its input and time.
-    type View<'a>: Stepped<Self::Rule, N, Scalar = Self::Scalar, RunMemory = Self::RunMemory>;
+/// A system by a rule whose numbers C reads as they are.
+pub trait Plainly<const N: usize>: Interface<N, System: CParameters, Scalar: Plain> {}
 
-    /// Takes what the system needs of an input and a time; `None` where the input has another length.
-    fn given(input: &[Self::Scalar], time: Self::Scalar) -> Option<Self::Given>;
-
-    /// The system with what is given.
-    fn view(system: &Self::Parameters, given: Self::Given) -> Self::View<'_>;
-
-    /// The derivatives of a step.
-    ///
-    /// # Errors
-    /// [`StepError::NonFinite`].
-    fn linearized(
-        taken: &StepTaken<'_, Self::View<'_>, Self::Rule, N>,
-    ) -> Result<Self::Linearized, StepError>;
-
-    /// A, B and the derivatives by parameters, one row of (q1, p1) after the other; none where there are
-    /// none.
-    fn rows(linearized: &Self::Linearized) -> [&[Self::Scalar]; 3];
-}
+impl<I: Interface<N, System: CParameters, Scalar: Plain>, const N: usize> Plainly<N> for I {}
 
 /// The parameters and the run of a system: what lies behind the signature.
 pub struct Machine<I: Interface<N>, const N: usize> {
     /// The system, as C filled it in.
-    pub system: I::Parameters,
+    pub system: I::System,
     /// The run of its views.
     pub run: DrivenTrajectory<I::Kind, I::Rule, N>,
 }
@@ -106,15 +69,6 @@ pub fn time<S: Scalar>(given: S) -> Result<S, Status> {
     input([given]).map(|[given]| given)
 }
 
-/// Fails where `h` is 0 or not finite.
-///
-/// # Errors
-/// [`StepError::StepSize`].
-pub fn require_step_size<S: Scalar>(h: S) -> Result<(), StepError> {
-    let h = h.widen();
-    if h.is_finite() && h != 0.0 { Ok(()) } else { Err(StepError::StepSize { h }) }
-}
-
 /// The state of these numbers.
 ///
 /// # Errors
@@ -125,21 +79,6 @@ pub fn state<S: Scalar, const N: usize>(q: [S; N], p: [S; N]) -> Result<State<S,
     odd(&q).map_or(Ok(()), error(Quantity::Configuration))?;
     odd(&p).map_or(Ok(()), error(Quantity::Momentum))?;
     Ok(State { q: q.into(), p: p.into() })
-}
-
-/// A run of `system` from (q, v), with step size `h`.
-///
-/// # Errors
-/// [`StepError`]s of the start.
-pub fn start<I: Interface<N>, const N: usize>(
-    system: &I::Parameters,
-    given: I::Given,
-    h: I::Scalar,
-    [q, v]: [[I::Scalar; N]; 2],
-) -> Result<DrivenTrajectory<I::Kind, I::Rule, N>, StepError> {
-    require_step_size(h)?;
-    let start = State::from_velocity(&I::view(system, given), SVector::from(q), SVector::from(v))?;
-    Ok(DrivenTrajectory::new(h, start))
 }
 
 /// Where a step of `after`, or none, leads to from `state`.
@@ -172,13 +111,13 @@ pub fn rows_by_state<S: Scalar, const N: usize, const ROWS: usize>(
     })
 }
 
-/// ∂(q1, p1)/∂θ in rows of (q1, p1), a column each of θ.
+/// Derivatives in rows of (q1, p1), a column each of what they are by.
 #[must_use]
-pub fn rows_by<S: Scalar, const N: usize, const K: usize, const ROWS: usize>(
-    b: &StateBy<S, N, K>,
+pub fn rows<S: Scalar, const N: usize, const K: usize, const ROWS: usize>(
+    columns: &[Column<S, N>],
 ) -> [[S; K]; ROWS] {
+    let entry = |row: usize, [q, p]: &Column<S, N>| if row < N { q[row % N] } else { p[row % N] };
     core::array::from_fn(|row| {
-        let block = if row < N { &b.q } else { &b.p };
-        core::array::from_fn(|column| block[(row % N, column)])
+        core::array::from_fn(|k| columns.get(k).map_or(S::constant(0.0), |column| entry(row, column)))
     })
 }

@@ -11,7 +11,7 @@ use std::ffi::CString;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::slice;
 
-use dalembert_c::machine::Interface;
+use dalembert_face::Interface;
 
 use crate::Unit;
 use crate::cosimulation::CoSimulation;

@@ -5,8 +5,7 @@ use std::rc::Rc;
 use dalembert::run::DrivenTrajectory;
 use dalembert::system::Scalar;
 use dalembert::{Lagrangian, State, nalgebra::SVector};
-use dalembert_c::machine::{self, Interface};
-use dalembert_c::{Fields, Number};
+use dalembert_face::{Described, Fields, Input, Interface, Number, start};
 
 use crate::model::Model;
 use crate::refusal::{Mode, Refusal};
@@ -27,7 +26,7 @@ pub struct CoSimulation<I: Interface<N>, const N: usize> {
     pub(crate) mode: Mode,
     pub(crate) start_time: f64,
     pub(crate) step_size: I::Scalar,
-    pub(crate) system: I::Parameters,
+    pub(crate) system: I::System,
     pub(crate) input: Vec<I::Scalar>,
     /// (q, v) that the run begins at.
     pub(crate) start: [[I::Scalar; N]; 2],
@@ -43,7 +42,7 @@ type Motion<S, const N: usize> = (State<S, N>, SVector<S, N>);
 /// Where a communication step began, and what it was taken with.
 pub struct Communication<I: Interface<N>, const N: usize> {
     pub(crate) before: Run<I, N>,
-    pub(crate) system: I::Parameters,
+    pub(crate) system: I::System,
     pub(crate) input: Vec<I::Scalar>,
     pub(crate) steps: u64,
 }
@@ -89,7 +88,7 @@ impl<I: Interface<N>, const N: usize> CoSimulation<I, N> {
             start_time: 0.0,
             step_size: unit.step_size,
             system: unit.parameters,
-            input: vec![I::Scalar::constant(0.0); unit.header.inputs],
+            input: vec![I::Scalar::constant(0.0); I::System::INPUTS],
             start: unit.start,
             run: None,
             last: None,
@@ -101,17 +100,19 @@ impl<I: Interface<N>, const N: usize> CoSimulation<I, N> {
     }
 
     /// `input` and the time, as the system takes them.
-    pub(crate) fn given(input: &[I::Scalar], time: f64) -> I::Given {
-        I::given(input, I::Scalar::constant(time)).expect("as many inputs as the unit has")
+    pub(crate) fn given(input: &[I::Scalar], time: f64) -> (I::Input, I::Scalar) {
+        let input = I::Input::of(input).expect("as many inputs as the unit has");
+        (input, I::Scalar::constant(time))
     }
 
-    fn without_input(&self) -> I::Given {
+    fn without_input(&self) -> (I::Input, I::Scalar) {
         Self::given(&vec![I::Scalar::constant(0.0); self.input.len()], self.time())
     }
 
     /// The system without an input, now: what velocities, momenta and energy are asked of.
     pub(crate) fn undriven(&self) -> I::View<'_> {
-        I::view(&self.system, self.without_input())
+        let (input, time) = self.without_input();
+        I::view(&self.system, input, time)
     }
 
     /// (q, p) and v.
@@ -243,7 +244,7 @@ impl<I: Interface<N>, const N: usize> Model for CoSimulation<I, N> {
 
     fn exit_initialization(&mut self) -> Result<(), Refusal> {
         self.require(Mode::Initialization)?;
-        let run = machine::start::<I, N>(&self.system, self.without_input(), self.step_size, self.start);
+        let run = start::<I, N>(&self.system, self.without_input(), self.step_size, self.start);
         self.run = Some(run.map_err(|error| Refusal::Step { error, time: self.start_time })?);
         self.mode = Mode::Step;
         Ok(())
@@ -263,7 +264,8 @@ impl<I: Interface<N>, const N: usize> Model for CoSimulation<I, N> {
         let mut run = self.run.clone().ok_or(Refusal::NotNow(self.mode))?;
         for _ in 0..steps as u64 {
             let time = self.start_time + run.time();
-            let view = I::view(&self.system, Self::given(&self.input, time));
+            let (input, now) = Self::given(&self.input, time);
+            let view = I::view(&self.system, input, now);
             run.advance(&view).map_err(|error| Refusal::Step { error, time })?;
         }
         let (system, input) = (self.system, self.input.clone());

@@ -14,7 +14,7 @@ use dalembert::nalgebra::SVector;
 use dalembert::step::PhaseMatrix;
 use dalembert::system::Scalar;
 use dalembert::{Lagrangian, State, StepError};
-use dalembert_c::machine::Interface;
+use dalembert_face::{Described, Interface};
 
 use crate::cosimulation::CoSimulation;
 use crate::model::Model;
@@ -88,8 +88,8 @@ pub fn along<I: Interface<N>, const N: usize>(
 }
 
 /// Where a parameter stands among those that the system is derived by.
-fn listed<I: Interface<N>, const N: usize>(of: &CoSimulation<I, N>, known: &Variable) -> Option<usize> {
-    of.unit.header.parameters.iter().position(|name| *name == known.name)
+fn listed<I: Interface<N>, const N: usize>(known: &Variable) -> Option<usize> {
+    I::System::PARAMETERS.iter().position(|name| *name == known.name)
 }
 
 fn is_derived<I: Interface<N>, const N: usize>(
@@ -102,7 +102,7 @@ fn is_derived<I: Interface<N>, const N: usize>(
         (Mode::Initialization, Momentum(_) | Energy, Configuration(_) | Velocity(_)) => true,
         (Mode::Initialization, ..) => false,
         // v and E hang on the parameters at constant (q, p) too.
-        (_, Configuration(_) | Momentum(_), Parameter { .. }) => listed(of, known).is_some(),
+        (_, Configuration(_) | Momentum(_), Parameter { .. }) => listed::<I, N>(known).is_some(),
         (
             _,
             Configuration(_) | Momentum(_) | Velocity(_) | Energy,
@@ -124,7 +124,7 @@ fn sown<I: Interface<N>, const N: usize>(
         v: nothing,
         p: nothing,
         input: vec![zero; of.input.len()],
-        parameters: vec![zero; of.unit.header.parameters.len()],
+        parameters: vec![zero; I::System::PARAMETERS.len()],
     };
     for (known, &seed) in knowns.iter().zip(seed) {
         let into = match known.place {
@@ -132,7 +132,7 @@ fn sown<I: Interface<N>, const N: usize>(
             Place::Velocity(i) => &mut given.v[i],
             Place::Momentum(i) => &mut given.p[i],
             Place::Input(i) => &mut given.input[i],
-            _ => match listed(of, known) {
+            _ => match listed::<I, N>(known) {
                 Some(i) => &mut given.parameters[i],
                 None => continue,
             },
@@ -153,19 +153,22 @@ fn carried<I: Interface<N>, const N: usize>(
     for _ in 0..last.steps {
         let time = of.start_time + run.time();
         let failed = |error| Refusal::Step { error, time };
-        let view = I::view(&last.system, CoSimulation::<I, N>::given(&last.input, time));
+        let (input, now) = CoSimulation::<I, N>::given(&last.input, time);
+        let view = I::view(&last.system, input, now);
         let taken = run.advance_linearized(&view).map_err(failed)?;
-        let linearized = I::linearized(&taken).map_err(failed)?;
-        let rows = I::rows(&linearized);
-        let state: Vec<_> = dq.iter().chain(&dp).copied().collect();
-        let by = |row: usize| {
-            let terms = rows.iter().zip([&state, &given.input, &given.parameters]);
-            terms.fold(I::Scalar::constant(0.0), |sum, (matrix, along)| {
-                let coefficients = &matrix[row * along.len()..(row + 1) * along.len()];
-                coefficients.iter().zip(along).fold(sum, |sum, (&a, &b)| sum + a * b)
-            })
+        let a = taken.by_state().map_err(failed)?;
+        let by_input = I::by_input(&taken).map_err(failed)?;
+        let by_parameters = I::by_parameters(&taken).map_err(failed)?;
+        let columns = (0..N).map(|i| [a.q_by_q.column(i).into_owned(), a.p_by_q.column(i).into_owned()]);
+        let columns =
+            columns.chain((0..N).map(|i| [a.q_by_p.column(i).into_owned(), a.p_by_p.column(i).into_owned()]));
+        let columns = columns.chain(by_input.as_ref().iter().chain(by_parameters.as_ref()).copied());
+        let along = dq.iter().chain(&dp).chain(&given.input).chain(&given.parameters).copied();
+        let zero = SVector::from_element(I::Scalar::constant(0.0));
+        let sum = |[q, p]: [SVector<_, N>; 2], (by, along): ([SVector<_, N>; 2], I::Scalar)| {
+            [q + by[0] * along, p + by[1] * along]
         };
-        (dq, dp) = (SVector::from_fn(|i, _| by(i)), SVector::from_fn(|i, _| by(N + i)));
+        [dq, dp] = columns.zip(along.collect::<Vec<_>>()).fold([zero; 2], sum);
     }
     Ok(State { q: dq, p: dp })
 }

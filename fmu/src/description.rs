@@ -2,8 +2,7 @@
 
 use std::io;
 
-use dalembert_c::Number;
-use dalembert_c::machine::Interface;
+use dalembert_face::{Fields, Interface, Number};
 use quick_xml::writer::{ElementWriter, Writer};
 
 use crate::Unit;
@@ -53,12 +52,12 @@ struct Version {
 fn document<I: Interface<N>, const N: usize>(unit: &Unit<I, N>, version: &Version) -> io::Result<String> {
     let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
     let variables = variables::of(unit);
-    let (description, token) = (documentation(unit), unit.token());
+    let (description, token) = (described(I::System::DOCUMENTATION), unit.token());
     let root = writer
         .create_element("fmiModelDescription")
         .with_attributes([
             ("fmiVersion", version.number),
-            ("modelName", unit.header.prefix),
+            ("modelName", unit.name),
             (version.token, &*token),
             ("description", &description),
             ("generationTool", TOOL),
@@ -67,7 +66,7 @@ fn document<I: Interface<N>, const N: usize>(unit: &Unit<I, N>, version: &Versio
         .with_attributes(version.also.iter().copied());
     root.write_inner_content(|to| {
         to.create_element("CoSimulation")
-            .with_attribute(("modelIdentifier", unit.header.prefix))
+            .with_attribute(("modelIdentifier", unit.name))
             .with_attributes(version.capabilities.map(|capability| (capability, "true")))
             .with_attribute(("canHandleVariableCommunicationStepSize", "false"))
             .write_empty()?;
@@ -84,8 +83,8 @@ fn document<I: Interface<N>, const N: usize>(unit: &Unit<I, N>, version: &Versio
     Ok(format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{text}\n"))
 }
 
-fn documentation<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> String {
-    let lines: Vec<_> = unit.header.documentation.iter().map(|line| line.trim()).collect();
+fn described(documentation: &[&str]) -> String {
+    let lines: Vec<_> = documentation.iter().map(|line| line.trim()).collect();
     lines.join(" ").trim().to_owned()
 }
 

@@ -1,7 +1,7 @@
 //! A system as a functional mock-up unit: FMI 3.0 and 2.0, co-simulation.
 //!
 //! In a crate of its own, `crate-type = ["cdylib", "rlib"]`, [`parameters!`] declares the struct of the
-//! system's fields, [`c_api!`] names the system and its rule, and [`fmu!`] its step size and start.
+//! system's fields, and [`fmu!`] names the system, its rule, its step size and its start.
 //! `UNIT.pack("cart_pole.fmu")` writes the unit; `examples/fmu/` is the template. `UNIT.pack_fmi2` writes one
 //! of FMI 2.0.
 //!
@@ -31,7 +31,9 @@
 
 #[doc(hidden)]
 pub use dalembert;
-pub use dalembert_c::{c_api, parameters};
+#[doc(hidden)]
+pub use dalembert_face as face;
+pub use dalembert_face::fields as parameters;
 
 #[doc(hidden)]
 pub mod boundary;
@@ -47,7 +49,7 @@ mod variables;
 
 pub use unit::Unit;
 
-/// Writes the functions of FMI for a system that [`c_api!`] has named, and `UNIT`, which packs it.
+/// Writes the functions of FMI for a system, and `UNIT`, which packs it.
 ///
 /// ```
 /// use dalembert::{Midpoint, rayleigh_system};
@@ -77,10 +79,13 @@ pub use unit::Unit;
 ///     }
 /// }
 ///
-/// dalembert_fmu::c_api! { cart: Cart, coordinates: 1, rule: Midpoint, driven: DrivenCart, inputs: 1 }
-///
 /// dalembert_fmu::fmu! {
-///     cart, step_size: 0.01, parameters: Cart { mass: 2.0, friction: 0.1 }, q: [0.0], v: [1.0]
+///     cart: Cart,
+///     rule: Midpoint,
+///     step_size: 0.01,
+///     parameters: Cart { mass: 2.0, friction: 0.1 },
+///     q: [0.0],
+///     v: [1.0],
 /// }
 ///
 /// fn main() {
@@ -88,8 +93,8 @@ pub use unit::Unit;
 /// }
 /// ```
 ///
-/// The entries are the module that [`c_api!`] has made, h, the parameters, and the start, each until the
-/// importer sets another. A library holds one unit: FMI names its functions alike in all. A field that has
+/// The entries are the name of the unit and the struct of the system, its rule, h, the parameters, and the start,
+/// the last three each until the importer sets another. A library holds one unit: FMI names its functions alike in all. A field that has
 /// the name of another variable of the unit is refused:
 ///
 /// ```compile_fail,E0080
@@ -107,16 +112,25 @@ pub use unit::Unit;
 /// #         0.5 * self.energy * v[0] * v[0]
 /// #     }
 /// # }
-/// # dalembert_fmu::c_api! { cart: Cart, coordinates: 1, rule: Midpoint }
-/// dalembert_fmu::fmu! { cart, step_size: 0.01, parameters: Cart { energy: 2.0 }, q: [0.0], v: [1.0] }
+/// dalembert_fmu::fmu! {
+///     cart: Cart, rule: Midpoint, step_size: 0.01, parameters: Cart { energy: 2.0 }, q: [0.0], v: [1.0]
+/// }
 /// # fn main() {}
 /// ```
 #[macro_export]
 macro_rules! fmu {
-    ($system:ident, step_size: $h:expr, parameters: $parameters:expr, q: $q:expr, v: $v:expr $(,)?) => {
+    ($name:ident: $system:ident, rule: $rule:ty, step_size: $h:expr, parameters: $parameters:expr, q: $q:expr, v: $v:expr $(,)?) => {
         /// The unit: its description, and how it is packed.
-        pub static UNIT: $crate::Unit<$system::CSystem, { $system::HEADER.coordinates }> =
-            $crate::Unit::new($system::HEADER, env!("CARGO_CRATE_NAME"), $h, $parameters, [$q, $v]);
+        pub static UNIT: $crate::Unit<
+            $crate::face::By<$system, $rule>,
+            { $crate::face::coordinates(::core::marker::PhantomData::<fn() -> $system>) },
+        > = $crate::Unit::new(
+            [stringify!($name), stringify!($rule)],
+            env!("CARGO_CRATE_NAME"),
+            $h,
+            $parameters,
+            [$q, $v],
+        );
 
         #[allow(unsafe_code, non_snake_case, clippy::too_many_arguments)]
         #[unsafe(no_mangle)]

@@ -1,6 +1,6 @@
 //! Instances of any system: the boundary calls [`Model`] and knows nothing of systems.
 
-use dalembert_c::Number;
+use dalembert_face::Number;
 
 use crate::refusal::Refusal;
 

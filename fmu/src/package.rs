@@ -5,7 +5,7 @@ use std::io::{self, Cursor, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-use dalembert_c::machine::Interface;
+use dalembert_face::Interface;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
@@ -39,7 +39,7 @@ impl<I: Interface<N>, const N: usize> Unit<I, N> {
     fn write(&self, file: &Path, description: &str, machine: &str) -> io::Result<()> {
         let library = self.library_beside_the_program()?;
         let binary = fs::read(&library).map_err(|error| named(&error, &library))?;
-        let place = format!("binaries/{machine}/{}{DLL_SUFFIX}", self.header.prefix);
+        let place = format!("binaries/{machine}/{}{DLL_SUFFIX}", self.name);
         let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
         // The same bytes from the same library: no time of day.
         let options = SimpleFileOptions::default();

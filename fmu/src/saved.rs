@@ -5,8 +5,7 @@
 use dalembert::State;
 use dalembert::run::{Checkpoint, DrivenTrajectory};
 use dalembert::system::Scalar;
-use dalembert_c::machine::Interface;
-use dalembert_c::{Fields, Number};
+use dalembert_face::{Fields, Interface, Number};
 
 use crate::cosimulation::CoSimulation;
 use crate::refusal::{Mode, Refusal};
@@ -14,7 +13,7 @@ use crate::variables::Place;
 
 /// The state of an instance.
 pub fn bytes<I: Interface<N>, const N: usize>(of: &CoSimulation<I, N>) -> Vec<u8> {
-    let mut words = vec![of.unit.header.layout, of.mode as u64, of.start_time.to_bits()];
+    let mut words = vec![of.unit.layout, of.mode as u64, of.start_time.to_bits()];
     let mut scalar = |value: I::Scalar| words.push(value.widen().to_bits());
     scalar(of.step_size);
     of.input.iter().chain(of.start.as_flattened()).for_each(|&value| scalar(value));
@@ -37,7 +36,7 @@ pub fn read<I: Interface<N>, const N: usize>(
     let (words, rest) = bytes.as_chunks::<8>();
     let mut words = words.iter().map(|word| u64::from_le_bytes(*word));
     let mut next = || words.next().ok_or(Refusal::Bytes);
-    if next()? != like.unit.header.layout || !rest.is_empty() {
+    if next()? != like.unit.layout || !rest.is_empty() {
         return Err(Refusal::Bytes);
     }
     let mut read = like.clone();

@@ -1,16 +1,17 @@
 //! A unit, as `fmu!` states it.
 
-use dalembert_c::Header;
-use dalembert_c::machine::Interface;
+use dalembert_face::{Described, Field, FieldType, Fields, Interface, layout};
 
 /// A system with its step size and start, as a unit.
 ///
 /// [`fmu!`](crate::fmu) makes it.
 pub struct Unit<I: Interface<N>, const N: usize> {
-    pub(crate) header: Header,
+    pub(crate) name: &'static str,
+    pub(crate) rule: &'static str,
+    pub(crate) layout: u64,
     pub(crate) library: &'static str,
     pub(crate) step_size: I::Scalar,
-    pub(crate) parameters: I::Parameters,
+    pub(crate) parameters: I::System,
     /// (q, v).
     pub(crate) start: [[I::Scalar; N]; 2],
 }
@@ -23,31 +24,36 @@ impl<I: Interface<N>, const N: usize> Unit<I, N> {
     /// another variable.
     #[doc(hidden)]
     pub const fn new(
-        header: Header,
+        [name, rule]: [&'static str; 2],
         library: &'static str,
         step_size: I::Scalar,
-        parameters: I::Parameters,
+        parameters: I::System,
         start: [[I::Scalar; N]; 2],
     ) -> Self {
+        let fields: &[Field] = I::System::FIELDS;
         let mut i = 0;
-        while i < header.fields.len() {
+        while i < fields.len() {
             let mut j = 0;
             while j < TAKEN.len() {
                 assert!(
-                    !equal(header.fields[i].name, TAKEN[j]),
+                    !equal(fields[i].name, TAKEN[j]),
                     "a field has the name of another variable of the unit: time, step_size, u, q, v, p, energy"
                 );
                 j += 1;
             }
             i += 1;
         }
-        Self { header, library, step_size, parameters, start }
+        let words = [name, rule, <I::Scalar as FieldType>::BASE];
+        let (inputs, parameters_listed) = (I::System::INPUTS, I::System::PARAMETERS.len());
+        let sizes = [N, inputs, parameters_listed, I::System::TAKES_TIME as usize, size_of::<I::System>()];
+        let layout = layout(fields, &words, &sizes);
+        Self { name, rule, layout, library, step_size, parameters, start }
     }
 
     /// The token by which an importer shows that it has read the description of this unit.
     #[must_use]
     pub fn token(&self) -> String {
-        format!("dalembert-{}-{:016x}", env!("CARGO_PKG_VERSION"), self.header.layout)
+        format!("dalembert-{}-{:016x}", env!("CARGO_PKG_VERSION"), self.layout)
     }
 }
 

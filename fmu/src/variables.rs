@@ -1,8 +1,7 @@
 //! The variables of a unit; a value reference is a place among them.
 
 use dalembert::system::Scalar;
-use dalembert_c::machine::Interface;
-use dalembert_c::{Field, Fields, Number};
+use dalembert_face::{Described, Field, Fields, Interface, Number};
 
 use crate::Unit;
 
@@ -90,10 +89,10 @@ pub fn of<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> Vec<Variable> {
         Variable::new("time", "Time", Place::Time, Role::Independent, Number::F64(0.0)),
         step_size(unit),
     ];
-    for (index, field) in I::Parameters::FIELDS.iter().enumerate() {
+    for (index, field) in I::System::FIELDS.iter().enumerate() {
         all.extend(parameters(unit, index, field));
     }
-    for i in 0..unit.header.inputs {
+    for i in 0..I::System::INPUTS {
         let held = "Input, held over a communication step";
         all.push(Variable::new(format!("u[{i}]"), held, Place::Input(i), Role::Input, zero));
     }
@@ -116,7 +115,7 @@ pub fn of<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> Vec<Variable> {
 fn step_size<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> Variable {
     let description = format!(
         "Step size of the rule {}: the communication step has to be a multiple",
-        unit.header.rule.replace(' ', "")
+        unit.rule.replace(' ', "")
     );
     Variable::new("step_size", &description, Place::StepSize, Role::Fixed, number(unit.step_size))
 }

@@ -40,13 +40,11 @@ impl Winch {
     }
 }
 
-dalembert_fmu::c_api! {
-    winch: Winch, coordinates: 1, rule: Gauss<2>, driven: DrivenWinch, inputs: 2, time, parameters: 1
-}
-
 const STATED: Winch = Winch { choice: 1, c: 0.2, weights: [[0.0, 3.0], [7.0, 1.5]], turns: [5, 6, -1] };
 
-dalembert_fmu::fmu! { winch, step_size: 0.02, parameters: STATED, q: [0.4], v: [-0.1] }
+dalembert_fmu::fmu! {
+    winch: Winch, rule: Gauss<2>, step_size: 0.02, parameters: STATED, q: [0.4], v: [-0.1]
+}
 
 fn imported() -> Imported {
     Imported::new(UNIT.description(), &UNIT.token())

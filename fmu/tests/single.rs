@@ -26,9 +26,7 @@ impl Ring {
     }
 }
 
-dalembert_fmu::c_api! { ring: Ring, coordinates: 2, rule: Midpoint }
-
-dalembert_fmu::fmu! { ring, step_size: 0.1, parameters: Ring { k: 0.05 }, q: [0.0, 1.2], v: [0.5, 0.0] }
+dalembert_fmu::fmu! { ring: Ring, rule: Midpoint, step_size: 0.1, parameters: Ring { k: 0.05 }, q: [0.0, 1.2], v: [0.5, 0.0] }
 
 #[test]
 fn a_unit_in_single_precision_steps_as_rust_does() {

@@ -6,17 +6,11 @@ mod henon_heiles;
 mod oscillator;
 mod ring;
 
-use cart_pole::{CartPole, DrivenCartPole};
+use cart_pole::CartPole;
 use dalembert_python::parameters;
 use double_pendulum::DoublePendulum;
 use henon_heiles::HenonHeiles;
-use oscillator::{ShakenOscillator, ShakenOscillatorAtTime};
+use oscillator::ShakenOscillator;
 use ring::Ring;
 
-dalembert_python::module!(dalembert_scenes {
-    Ring,
-    DoublePendulum { parameters: 2 },
-    HenonHeiles,
-    ShakenOscillator { at_time: ShakenOscillatorAtTime, parameters: 3 },
-    CartPole { driven: DrivenCartPole, inputs: 1 },
-});
+dalembert_python::module!(dalembert_scenes { Ring, DoublePendulum, HenonHeiles, ShakenOscillator, CartPole });

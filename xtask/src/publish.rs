@@ -14,8 +14,8 @@ use xshell::{Cmd, Shell, cmd};
 use crate::{project, tools};
 
 /// The crates in the order in which they are published: each needs those before it.
-const PUBLISHED: [&str; 5] =
-    ["dalembert-macros", "dalembert", "dalembert-c", "dalembert-fmu", "dalembert-ensemble"];
+const PUBLISHED: [&str; 6] =
+    ["dalembert-macros", "dalembert", "dalembert-face", "dalembert-c", "dalembert-fmu", "dalembert-ensemble"];
 
 /// A look at what would be published.
 struct Publication {

@@ -36,8 +36,8 @@ impl DoublePendulum {
     }
 }
 
-dalembert_c::c_api! { pendulum_midpoint: DoublePendulum, coordinates: 2, rule: Midpoint, driven: DrivenDoublePendulum, inputs: 2 }
-dalembert_c::c_api! { pendulum_gauss: DoublePendulum, coordinates: 2, rule: Gauss<3>, driven: DrivenDoublePendulum, inputs: 2 }
+dalembert_c::c_api! { pendulum_midpoint: DoublePendulum, rule: Midpoint }
+dalembert_c::c_api! { pendulum_gauss: DoublePendulum, rule: Gauss<3> }
 
 dalembert_c::parameters! {
     /// An arm: yaw, shoulder, elbow.
@@ -94,5 +94,5 @@ impl Arm {
     }
 }
 
-dalembert_c::c_api! { arm_midpoint: Arm, coordinates: 3, rule: Midpoint, driven: DrivenArm, inputs: 3 }
-dalembert_c::c_api! { arm_gauss: Arm, coordinates: 3, rule: Gauss<3>, driven: DrivenArm, inputs: 3 }
+dalembert_c::c_api! { arm_midpoint: Arm, rule: Midpoint }
+dalembert_c::c_api! { arm_gauss: Arm, rule: Gauss<3> }

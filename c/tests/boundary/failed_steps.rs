@@ -56,7 +56,7 @@ macro_rules! failures_by {
             )?
         }
 
-        dalembert_c::c_api! { $prefix: $system, coordinates: $n, rule: $method $(, driven: $driven, inputs: 1)? }
+        dalembert_c::c_api! { $prefix: $system, rule: $method }
 
         #[allow(non_snake_case)]
         fn $prefix(random: &mut StdRng) -> [u32; 2] {

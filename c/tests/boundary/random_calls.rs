@@ -157,7 +157,8 @@ fn call(caller: &mut Caller, memory: &mut Memory, oracle: &mut Option<Oracle>) -
     let (mut q, mut p) = ([given_q, [0.0; 2]], [given_v, [0.0; 2]]);
     let mut reports = [CReport { time: 0.0, residual: 0.0, floor: 0.0, iterations: 0, damped: 0 }; 2];
     let (mut inputs, mut systems) = ([[u], [0.0]], [system; 2]);
-    let mut linearized = [cart_pole::CLinearized { by_state: [[0.0; 4]; 4], by_input: [[0.0]; 4] }; 2];
+    let mut linearized =
+        [cart_pole::CLinearized { by_state: [[0.0; 4]; 4], by_input: [[0.0]; 4], by_parameters: [[]; 4] }; 2];
     // The rest of a call whose arguments are right.
     macro_rules! foreseen {
         ($status:expr, $deed:expr) => {{
@@ -227,7 +228,7 @@ fn call(caller: &mut Caller, memory: &mut Memory, oracle: &mut Option<Oracle>) -
             wrong.extend(refused);
             let (status, foreseen, derivatives) =
                 foreseen!(unsafe { cart_pole::step_linearized(at, input, report, to) }, Deed::Linearized(u));
-            if let (Some(expected), [cart_pole::CLinearized { by_state: a, by_input: b }, _]) =
+            if let (Some(expected), [cart_pole::CLinearized { by_state: a, by_input: b, .. }, _]) =
                 (derivatives, linearized)
             {
                 let found = [a[0][1], a[1][2], a[3][1], b[1][0], b[2][0]];

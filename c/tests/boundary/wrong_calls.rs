@@ -88,7 +88,8 @@ fn no_call_takes_a_memory_that_holds_no_run_of_its_system() {
     ] {
         let (mut q, mut p, mut one) = ([7.0; 2], [7.0; 2], 7.0);
         let mut report = CReport { time: 7.0, residual: 7.0, floor: 7.0, iterations: 7, damped: 7 };
-        let mut linearized = cart_pole::CLinearized { by_state: [[7.0; 4]; 4], by_input: [[7.0]; 4] };
+        let mut linearized =
+            cart_pole::CLinearized { by_state: [[7.0; 4]; 4], by_input: [[7.0]; 4], by_parameters: [[]; 4] };
         let before = [bytes(&zeroed), bytes(&other), bytes(&run)];
         let statuses = unsafe {
             [
@@ -112,7 +113,8 @@ fn no_call_takes_a_memory_that_holds_no_run_of_its_system() {
     }
     // The control: the same calls on a run.
     let (memory, mut q, mut p, mut one) = (run.as_mut_ptr(), [7.0; 2], [7.0; 2], 7.0);
-    let mut linearized = cart_pole::CLinearized { by_state: [[7.0; 4]; 4], by_input: [[7.0]; 4] };
+    let mut linearized =
+        cart_pole::CLinearized { by_state: [[7.0; 4]; 4], by_input: [[7.0]; 4], by_parameters: [[]; 4] };
     let statuses = unsafe {
         [
             cart_pole::step(memory, &[0.0], null_mut()),

@@ -37,7 +37,7 @@ impl Ring {
     }
 }
 
-dalembert_c::c_api! { ring: Ring, coordinates: 2, rule: Midpoint, parameters: 1 }
+dalembert_c::c_api! { ring: Ring, rule: Midpoint }
 
 dalembert_c::parameters! {
     /// A pendulum whose gravity swells and ebbs, with two inputs.
@@ -64,7 +64,7 @@ impl Winch {
     }
 }
 
-dalembert_c::c_api! { winch: Winch, coordinates: 1, rule: Gauss<2>, driven: DrivenWinch, inputs: 2, time, parameters: 2 }
+dalembert_c::c_api! { winch: Winch, rule: Gauss<2> }
 
 dalembert_c::parameters! {
     /// A swing that is pushed by the clock.
@@ -85,4 +85,4 @@ impl Swing {
     }
 }
 
-dalembert_c::c_api! { swing: Swing, coordinates: 1, rule: Trapezoidal, at_time: SwingAtTime }
+dalembert_c::c_api! { swing: Swing, rule: Trapezoidal }

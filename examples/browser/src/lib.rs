@@ -50,15 +50,15 @@ impl DoublePendulum {
     }
 }
 
-dalembert_c::c_api! { ring_midpoint: Ring, coordinates: 2, rule: Midpoint }
-dalembert_c::c_api! { ring_trapezoidal: Ring, coordinates: 2, rule: Trapezoidal }
-dalembert_c::c_api! { ring_gauss: Ring, coordinates: 2, rule: Gauss<2> }
-dalembert_c::c_api! { ring_reference: Ring, coordinates: 2, rule: Gauss<4> }
+dalembert_c::c_api! { ring_midpoint: Ring, rule: Midpoint }
+dalembert_c::c_api! { ring_trapezoidal: Ring, rule: Trapezoidal }
+dalembert_c::c_api! { ring_gauss: Ring, rule: Gauss<2> }
+dalembert_c::c_api! { ring_reference: Ring, rule: Gauss<4> }
 
-dalembert_c::c_api! { double_pendulum_midpoint: DoublePendulum, coordinates: 2, rule: Midpoint }
-dalembert_c::c_api! { double_pendulum_trapezoidal: DoublePendulum, coordinates: 2, rule: Trapezoidal }
-dalembert_c::c_api! { double_pendulum_gauss: DoublePendulum, coordinates: 2, rule: Gauss<2> }
-dalembert_c::c_api! { double_pendulum_reference: DoublePendulum, coordinates: 2, rule: Gauss<4> }
+dalembert_c::c_api! { double_pendulum_midpoint: DoublePendulum, rule: Midpoint }
+dalembert_c::c_api! { double_pendulum_trapezoidal: DoublePendulum, rule: Trapezoidal }
+dalembert_c::c_api! { double_pendulum_gauss: DoublePendulum, rule: Gauss<2> }
+dalembert_c::c_api! { double_pendulum_reference: DoublePendulum, rule: Gauss<4> }
 
 /// RK4 in the module, so that both methods are compiled alike.
 macro_rules! runge_kutta {

@@ -35,6 +35,4 @@ impl CartPole {
     }
 }
 
-dalembert_c::c_api! {
-    cart_pole: CartPole, coordinates: 2, rule: Midpoint, driven: DrivenCartPole, inputs: 1
-}
+dalembert_c::c_api! { cart_pole: CartPole, rule: Midpoint }

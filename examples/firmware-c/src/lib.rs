@@ -36,8 +36,6 @@ impl CartPole {
     }
 }
 
-dalembert_c::c_api! {
-    cart_pole: CartPole, coordinates: 2, rule: Midpoint, driven: DrivenCartPole, inputs: 1
-}
+dalembert_c::c_api! { cart_pole: CartPole, rule: Midpoint }
 
 dalembert_c::no_panic!();

@@ -39,12 +39,9 @@ impl CartPole {
     }
 }
 
-dalembert_fmu::c_api! {
-    cart_pole: CartPole, coordinates: 2, rule: Midpoint, driven: DrivenCartPole, inputs: 1, parameters: 2
-}
-
 dalembert_fmu::fmu! {
-    cart_pole,
+    cart_pole: CartPole,
+    rule: Midpoint,
     step_size: 0.01,
     parameters: CartPole { cart: 1.0, rod: 0.1, half_length: 0.25, friction: [0.1, 0.002] },
     q: [0.0, 0.1],

@@ -7,21 +7,17 @@ dalembert_c::no_panic!();
 /// In `f32`.
 pub mod single {
     use dalembert::Midpoint;
-    use firmware_scenes::single::{DrivenPushedCartPole, PushedCartPole};
+    use firmware_scenes::single::PushedCartPole;
 
-    dalembert_c::c_api! {
-        cart_pole_f32: PushedCartPole, coordinates: 2, rule: Midpoint, driven: DrivenPushedCartPole, inputs: 1
-    }
+    dalembert_c::c_api! { cart_pole_f32: PushedCartPole, rule: Midpoint, takes: [u] }
 }
 
 /// In `f64`.
 pub mod double {
     use dalembert::Midpoint;
-    use firmware_scenes::double::{DrivenPushedCartPole, PushedCartPole};
+    use firmware_scenes::double::PushedCartPole;
 
-    dalembert_c::c_api! {
-        cart_pole_f64: PushedCartPole, coordinates: 2, rule: Midpoint, driven: DrivenPushedCartPole, inputs: 1
-    }
+    dalembert_c::c_api! { cart_pole_f64: PushedCartPole, rule: Midpoint, takes: [u] }
 }
 
 /// Positive control: it may be out of bounds, and a program that calls it must not link.

@@ -7,7 +7,7 @@
 
 use core::ffi::{c_char, c_void};
 
-use dalembert_c::Number;
+use dalembert_face::Number;
 
 use super::functions::{self, Saved};
 use super::values::{of_another_type, values};

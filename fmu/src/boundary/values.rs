@@ -1,6 +1,6 @@
 //! Getting and setting variables, by type.
 
-use dalembert_c::Number;
+use dalembert_face::Number;
 
 use super::{Instance, Status, array, with, write};
 use crate::refusal::Refusal;

@@ -2,8 +2,7 @@
 
 use std::io;
 
-use dalembert_c::Number;
-use dalembert_c::machine::Interface;
+use dalembert_face::{Interface, Number};
 
 use super::{To, Version, document, labelled, unknown, unknowns, valued};
 use crate::Unit;

@@ -1,6 +1,6 @@
 //! Numbers and arrays that Python gives, and what is said where they are not what was expected.
 
-use dalembert_c::{Field, Number};
+use dalembert_face::{Field, Number};
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;

@@ -19,7 +19,9 @@
 
 #[doc(hidden)]
 pub use dalembert;
-pub use dalembert_c::fields as parameters;
+#[doc(hidden)]
+pub use dalembert_face as face;
+pub use dalembert_face::fields as parameters;
 #[doc(hidden)]
 pub use pyo3;
 
@@ -93,28 +95,19 @@ mod watching;
 ///     }
 /// }
 ///
-/// dalembert_python::module!(machines { Cart { driven: DrivenCart, inputs: 1, parameters: 2 } });
+/// dalembert_python::module!(machines { Cart });
 /// # fn main() {}
 /// ```
 ///
-/// The name is that of the library, which Python imports. A system without an input and without the time is its name
-/// alone; in braces behind others stands
-///
-/// | entry | what it says |
-/// |---|---|
-/// | `driven: DrivenCart, inputs: 1` | where the force takes an input: the type of the system with it, which the attribute makes, and its length |
-/// | `driven: DrivenCart, inputs: 1, time` | where L, R or f take the time too |
-/// | `at_time: CartAtTime` | where they take the time and no input |
-/// | `parameters: 2` | how many parameters the attribute lists |
-///
-/// N and the rules are found. Systems are in `f64`.
+/// The name is that of the library, which Python imports.
+/// Systems are in `f64`; the attribute has described them.
 #[macro_export]
 macro_rules! module {
-    ($name:ident { $($system:ident $({ $($entry:tt)* })?),+ $(,)? }) => {
+    ($name:ident { $($system:ident),+ $(,)? }) => {
         /// The type that `System` is implemented for: the systems may be of another crate.
         struct DalembertPython<S>(::core::marker::PhantomData<S>);
 
-        $($crate::system! { DalembertPython $system { $($($entry)*)? } })+
+        $($crate::system! { DalembertPython $system })+
 
         #[$crate::pyo3::pymodule(gil_used = false)]
         #[pyo3(crate = "dalembert_python::pyo3")]
@@ -133,59 +126,34 @@ macro_rules! module {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! system {
-    ($of:ident $system:ident { driven: $view:ident, inputs: $inputs:literal, time $(, parameters: $parameters:literal)? $(,)? }) => {
-        $crate::system! { @implement $of $system ['a $view<'a>] [$view<'static>] input [u $inputs] time [t]
-            |fields| fields.driven(u, t), parameters [$($parameters)?] }
-    };
-    ($of:ident $system:ident { driven: $view:ident, inputs: $inputs:literal $(, parameters: $parameters:literal)? $(,)? }) => {
-        $crate::system! { @implement $of $system ['a $view<'a>] [$view<'static>] input [u $inputs] time []
-            |fields| fields.driven(u), parameters [$($parameters)?] }
-    };
-    ($of:ident $system:ident { at_time: $view:ident $(, parameters: $parameters:literal)? $(,)? }) => {
-        $crate::system! { @implement $of $system ['a $view<'a>] [$view<'static>] input [] time [t]
-            |fields| fields.at_time(t), parameters [$($parameters)?] }
-    };
-    ($of:ident $system:ident { $(parameters: $parameters:literal)? $(,)? }) => {
-        $crate::system! { @implement $of $system ['a $system] [$system] input [] time []
-            |fields| *fields, parameters [$($parameters)?] }
-    };
-    (@input) => { $crate::derivatives::NoInput };
-    (@input $inputs:literal) => { $crate::derivatives::Input<$inputs> };
-    (@parameters) => { $crate::derivatives::NoParameters };
-    (@parameters $parameters:literal) => { $crate::derivatives::Parameters<$parameters> };
-    (@implement $of:ident $system:ident [$life:lifetime $view:ty] [$kind:ty] input [$($u:ident $inputs:literal)?] time [$($t:ident)?]
-        |$fields:ident| $call:expr, parameters [$($parameters:literal)?]) => {
+    ($of:ident $system:ident) => {
         const _: () = {
             use ::core::marker::PhantomData;
+            use $crate::face::Described;
             use $crate::offer::NoStepsToError as _;
 
-            const N: usize = $crate::system::coordinates(PhantomData::<fn() -> $kind>);
-            const TIMES: usize = [$(stringify!($t),)? ""].len() - 1;
+            const N: usize = $crate::face::coordinates(PhantomData::<fn() -> $system>);
 
             impl $crate::system::System<N> for $of<$system> {
                 const NAME: &'static str = stringify!($system);
-                const INPUTS: usize = 0 $(+ $inputs)?;
-                const TAKES_TIME: bool = TIMES == 1;
-                const PARAMETERS: &'static [&'static str] =
-                    [$(&<$kind as $crate::dalembert::system::Parameters<N, $parameters>>::PARAMETERS as &[&str],)? &[]][0];
-                type Input = $crate::system! { @input $($inputs)? };
-                type Parameters = $crate::system! { @parameters $($parameters)? };
                 type Fields = $system;
-                type View<$life> = $view;
-                type Kind = $kind;
+                type Input = <$system as Described<N>>::Input;
+                type Parameters = <$system as Described<N>>::Parameters;
+                type View<'a> = <$system as Described<N>>::View<'a>;
 
-                fn view<'a>($fields: &'a $system, input: &[f64], time: f64) -> Self::View<'a> {
-                    let _ = (input, time);
-                    $(let mut $u = [0.0; $inputs]; $u.copy_from_slice(input);)?
-                    $(let $t = time;)?
-                    $call
+                fn view<'a>(fields: &'a $system, u: &[f64], t: f64) -> Self::View<'a> {
+                    let u = <Self::Input as $crate::face::Input<f64>>::of(u)
+                        .expect("as many as the system takes");
+                    fields.view(*fields, u, t)
                 }
 
                 fn offers() -> ::std::vec::Vec<$crate::offer::Offer<Self, N>> {
                     $crate::offers!(Self, N)
                 }
 
-                fn steps_to_error() -> ::core::option::Option<::std::boxed::Box<dyn $crate::offer::StepsToError<Self, N>>> {
+                fn steps_to_error()
+                -> ::core::option::Option<::std::boxed::Box<dyn $crate::offer::StepsToError<Self, N>>>
+                {
                     $crate::offer::Probe::<Self, (), N>::new(()).steps_to_error()
                 }
             }

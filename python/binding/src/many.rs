@@ -11,9 +11,9 @@ use dalembert::nalgebra::SVector;
 use dalembert::run::events::EventError;
 use dalembert::system::sampled_forces;
 use dalembert::{Lagrangian, State, StepError};
-use dalembert_c::{Fields, Number};
 use dalembert_ensemble::parts::{self, PartsError};
 use dalembert_ensemble::{Ensemble, Failure, MemberError, Outcome, Plan, Progress, Record as OfMember};
+use dalembert_face::{Described, Fields, Number};
 use twox_hash::XxHash3_128;
 
 use crate::events::Found;
@@ -327,7 +327,7 @@ fn model<S: System<N>, const N: usize>() -> String {
             fields.change_entry(field, index, one_like(zero, 0.5 + number));
         }
     }
-    let inputs: Vec<f64> = (0..S::INPUTS).map(|k| 0.3 / (1.0 + k as f64)).collect();
+    let inputs: Vec<f64> = (0..S::Fields::INPUTS).map(|k| 0.3 / (1.0 + k as f64)).collect();
     let mut hash = XxHash3_128::new();
     let asked = catch_unwind(AssertUnwindSafe(|| {
         let (q, v) = (SVector::repeat(0.1), SVector::repeat(0.2));

@@ -7,7 +7,7 @@ use dalembert::nalgebra::SVector;
 use dalembert::run::Stop as Told;
 use dalembert::system::Structure;
 use dalembert::{Lagrangian, State, StepError};
-use dalembert_c::{Field, Fields, Number};
+use dalembert_face::{Described, Field, Fields, Number};
 
 use crate::checks::{Affine, Ledger, Region, Symmetry};
 use crate::events::{Event, Events, Found};
@@ -231,15 +231,15 @@ impl<S: System<N>, const N: usize> Kind for KindOf<S, N> {
     }
 
     fn inputs(&self) -> usize {
-        S::INPUTS
+        S::Fields::INPUTS
     }
 
     fn takes_time(&self) -> bool {
-        S::TAKES_TIME
+        S::Fields::TAKES_TIME
     }
 
     fn parameters(&self) -> &'static [&'static str] {
-        S::PARAMETERS
+        S::Fields::PARAMETERS
     }
 
     fn rules(&self) -> Vec<&'static str> {
@@ -247,7 +247,7 @@ impl<S: System<N>, const N: usize> Kind for KindOf<S, N> {
     }
 
     fn structure(&self) -> Structure {
-        <S::Kind as Lagrangian<N>>::STRUCTURE
+        <S::View<'static> as Lagrangian<N>>::STRUCTURE
     }
 
     fn zero(&self) -> Box<dyn Model> {
@@ -264,7 +264,7 @@ impl<S: System<N>, const N: usize> ModelOf<S, N> {
         let q = SVector::from_column_slice(start.q);
         let state = match start.motion {
             MotionGiven::Velocity(v) => {
-                let input = &start.inputs[..S::INPUTS];
+                let input = &start.inputs[..S::Fields::INPUTS];
                 let system = S::view(&self.fields, input, start.time);
                 State::from_velocity(&system, q, SVector::<f64, N>::from_column_slice(v))
             }
@@ -318,7 +318,7 @@ impl<S: System<N>, const N: usize> Model for ModelOf<S, N> {
                 let plan = Plan { steps, every: *every, origin: given.time };
                 let mut record = |motion: &mut dyn Motion<N>| ran = Record::of(motion, &plan, watch);
                 let Offer { steps, driven, .. } = offered::<S, N>(rule)?;
-                let has_one_input = given.inputs.len() == S::INPUTS;
+                let has_one_input = given.inputs.len() == S::Fields::INPUTS;
                 let given = Self::given(given);
                 if has_one_input && !is_differentiated {
                     let steps = steps.ok_or(Refusal::Rule)?;
@@ -421,7 +421,7 @@ impl<S: System<N>, const N: usize> Model for ModelOf<S, N> {
         motion: MotionGiven<'_>,
         watch: &Watch<'_>,
     ) -> Result<Vec<f64>, Refusal> {
-        let inputs = vec![0.0; S::INPUTS];
+        let inputs = vec![0.0; S::Fields::INPUTS];
         let vector = SVector::<f64, N>::from_column_slice;
         let (MotionGiven::Velocity(other) | MotionGiven::Momentum(other)) = motion;
         let states = q.chunks_exact(N).zip(other.chunks_exact(N)).enumerate();

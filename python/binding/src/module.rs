@@ -1,6 +1,6 @@
 //! The module: a class for each system, beside those that all have in common.
 
-use dalembert_c::Field;
+use dalembert_face::Field;
 use pyo3::prelude::*;
 use pyo3::types::{PyCFunction, PyDict, PyList, PyModule, PyTuple, PyType};
 

@@ -5,7 +5,9 @@ use dalembert::run::{DrivenTrajectory, Run};
 use dalembert::step::{Flow, Linearizable, Memory};
 use dalembert::{Lagrangian, State, StepError};
 
-use crate::derivatives::{Columns, Dependence};
+use dalembert_face::{ByParameters, Described};
+
+use crate::derivatives::Dependence;
 use crate::system::System;
 
 /// A run while it is recorded.
@@ -83,18 +85,18 @@ pub struct Given<'a> {
 /// A run whose input changes from step to step, or whose derivatives are carried along.
 pub struct StepByStep<'a, S: System<N>, M, const N: usize>
 where
-    S::Kind: Flow<M, N>,
+    S::View<'static>: Flow<M, N>,
 {
     fields: &'a S::Fields,
     given: Given<'a>,
     taken: usize,
-    run: DrivenTrajectory<S::Kind, M, N>,
+    run: DrivenTrajectory<S::View<'static>, M, N>,
     dependence: Option<Dependence<N>>,
 }
 
 impl<'a, S: System<N>, M, const N: usize> StepByStep<'a, S, M, N>
 where
-    S::Kind: Flow<M, N>,
+    S::View<'static>: Flow<M, N>,
 {
     pub(crate) fn new(
         fields: &'a S::Fields,
@@ -103,14 +105,14 @@ where
         start: State<f64, N>,
         is_differentiated: bool,
     ) -> Self {
-        let dependence = is_differentiated.then(|| Dependence::none(S::PARAMETERS.len()));
+        let dependence = is_differentiated.then(|| Dependence::none(S::Fields::PARAMETERS.len()));
         Self { fields, given, taken: 0, run: DrivenTrajectory::new(h, start), dependence }
     }
 
     /// The system of the next step, or of the last one where that was the last input.
     fn view(&self) -> S::View<'a> {
         let Given { inputs, time } = self.given;
-        let length = S::INPUTS;
+        let length = S::Fields::INPUTS;
         let last = inputs.len().checked_div(length).unwrap_or(1).saturating_sub(1);
         let first = self.taken.min(last) * length;
         S::view(self.fields, &inputs[first..first + length], time + self.run.time())
@@ -120,17 +122,16 @@ where
 impl<S, M, K, const N: usize> Motion<N> for StepByStep<'_, S, M, N>
 where
     S: System<N>,
-    S::Kind: Flow<M, N, RunMemory = K>,
     for<'v> S::View<'v>: Linearizable<M, N> + Flow<M, N, RunMemory = K>,
     K: for<'v> Memory<S::View<'v>, M, N>,
-    S::Parameters: for<'v> Columns<S::View<'v>, M, N>,
+    S::Parameters: for<'v> ByParameters<S::View<'v>, M, N>,
 {
     fn advance(&mut self) -> Option<Result<u32, StepError>> {
         let view = self.view();
         let report = match &mut self.dependence {
             None => self.run.advance(&view).map(|step| step.report),
             Some(dependence) => self.run.advance_linearized(&view).and_then(|taken| {
-                dependence.follow(&taken.by_state()?, &S::Parameters::columns(&taken)?);
+                dependence.follow(&taken.by_state()?, S::Parameters::columns(&taken)?.as_ref());
                 Ok(taken.step().report)
             }),
         };

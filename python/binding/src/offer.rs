@@ -7,9 +7,10 @@ use dalembert::step::{Flow, Linearizable, Memory, Step};
 use dalembert::tolerance::{OffersMethods, ToleranceError};
 use dalembert::{State, StepError};
 use dalembert_ensemble::{InLanes, OneByOne, Plan, ToError};
+use dalembert_face::{ByInput, ByParameters, Column};
 
 use crate::checks::Checks;
-use crate::derivatives::{Columns, column_rows, matrix_rows};
+use crate::derivatives::{column_rows, matrix_rows};
 use crate::events::{Events, watched};
 use crate::motion::{Given, Motion, Of, StepByStep};
 use crate::record::Guarded;
@@ -325,11 +326,10 @@ struct ByRule<M, K>(PhantomData<fn() -> (M, K)>);
 impl<S, M, K, const N: usize> Probe<S, M, N>
 where
     S: System<N>,
-    S::Kind: Flow<M, N, RunMemory = K>,
     for<'a> S::View<'a>: Linearizable<M, N> + Flow<M, N, RunMemory = K>,
     K: for<'a> Memory<S::View<'a>, M, N> + 'static,
-    S::Input: for<'a> Columns<S::View<'a>, M, N>,
-    S::Parameters: for<'a> Columns<S::View<'a>, M, N>,
+    S::Input: for<'a> ByInput<S::View<'a>, M, N>,
+    S::Parameters: for<'a> ByParameters<S::View<'a>, M, N>,
     M: 'static,
 {
     /// Steps with inputs of their own and with derivatives.
@@ -342,11 +342,10 @@ where
 impl<S, M, K, const N: usize> DrivenSteps<S, N> for ByRule<M, K>
 where
     S: System<N>,
-    S::Kind: Flow<M, N, RunMemory = K>,
     for<'a> S::View<'a>: Linearizable<M, N> + Flow<M, N, RunMemory = K>,
     K: for<'a> Memory<S::View<'a>, M, N> + 'static,
-    S::Input: for<'a> Columns<S::View<'a>, M, N>,
-    S::Parameters: for<'a> Columns<S::View<'a>, M, N>,
+    S::Input: for<'a> ByInput<S::View<'a>, M, N>,
+    S::Parameters: for<'a> ByParameters<S::View<'a>, M, N>,
     M: 'static,
 {
     fn run(
@@ -369,14 +368,14 @@ where
         start: &State<f64, N>,
     ) -> Result<StepDerivatives<N>, StepError> {
         let system = S::view(fields, given.inputs, given.time);
-        let mut run = DrivenTrajectory::<S::Kind, M, N>::new(h, *start);
+        let mut run = DrivenTrajectory::<S::View<'static>, M, N>::new(h, *start);
         let taken = run.advance_linearized(&system)?;
-        let rows = |has_any: bool, columns| has_any.then(|| column_rows(&columns));
+        let rows = |columns: &[Column<f64, N>]| (!columns.is_empty()).then(|| column_rows(columns));
         Ok(StepDerivatives {
             step: *taken.step(),
             a: matrix_rows(&taken.by_state()?),
-            b: rows(S::INPUTS > 0, S::Input::columns(&taken)?),
-            by_parameters: rows(!S::PARAMETERS.is_empty(), S::Parameters::columns(&taken)?),
+            b: rows(S::Input::columns(&taken)?.as_ref()),
+            by_parameters: rows(S::Parameters::columns(&taken)?.as_ref()),
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use core::fmt::Write;
 
-use dalembert_c::Field;
+use dalembert_face::Field;
 
 use crate::model::Kind;
 use crate::module::lines;

@@ -13,7 +13,7 @@ use super::{PUBLISHED, Publication, packages_of, step, text};
 /// Slugs of crates.io that the crates may use: an unknown one is refused there, and nowhere before.
 const CATEGORIES: [&str; 6] = ["concurrency", "embedded", "mathematics", "no-std", "science", "simulation"];
 
-/// Sees that the crates that may be published are the five, and what each says of itself.
+/// Sees that the crates that may be published are the six, and what each says of itself.
 pub fn check(of: &mut Publication) -> Result<()> {
     step("metadata");
     let clone = of.shell.current_dir();
@@ -22,9 +22,9 @@ pub fn check(of: &mut Publication) -> Result<()> {
         packages_of(&metadata).iter().map(|package| (text(package, "name"), package)).collect();
     // Packages inherit what the workspace says, this one too.
     let workspace = *packages.get("xtask").context("the workspace has no xtask")?;
-    let (open, five) = (open_to_all(of, &clone)?, BTreeSet::from(PUBLISHED.map(str::to_owned)));
-    if open != five {
-        let others: Vec<_> = open.symmetric_difference(&five).collect();
+    let (open, six) = (open_to_all(of, &clone)?, BTreeSet::from(PUBLISHED.map(str::to_owned)));
+    if open != six {
+        let others: Vec<_> = open.symmetric_difference(&six).collect();
         of.fail("publish = false", format!("{others:?}: said where it should not be, or missing"));
     }
     for name in PUBLISHED {

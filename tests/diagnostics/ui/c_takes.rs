@@ -18,6 +18,6 @@ impl Cart {
     }
 }
 
-dalembert_c::c_api! { cart: Cart, rule: Midpoint, coordinates: 1, driven: DrivenCart, inputs: 1 }
+dalembert_c::c_api! { cart: Cart, rule: Midpoint, takes: [u, t] }
 
 fn main() {}

@@ -1,0 +1,202 @@
+//! The struct of a system's fields, the same in Rust and in other languages.
+
+use core::fmt;
+
+use crate::Number;
+
+mod sealed {
+    /// The types that are listed here, and no others: those that C reads as they are.
+    pub trait Listed: Copy + 'static {}
+}
+
+/// A type that a field may have in both languages.
+#[diagnostic::on_unimplemented(
+    message = "C and Rust do not share the type `{Self}`",
+    label = "no field of C's",
+    note = "a field is a number, `f64`, `f32`, `i8` … `i64`, `u8` … `u64`, or an array of them, of one or two dimensions"
+)]
+pub trait FieldType: sealed::Listed {
+    /// The type before the name of a field in C.
+    const BASE: &'static str;
+    /// The dimensions behind the name: `[2][3]`, or nothing.
+    const DIMENSIONS: &'static [usize];
+
+    /// 0, or as many as there are.
+    const ZERO: Self;
+
+    /// Whether it is NaN, or has a NaN in it.
+    fn has_nan(&self) -> bool;
+
+    /// Its number `index`, row by row.
+    fn entry(&self, index: usize) -> Option<Number>;
+
+    /// Changes number `index`; whether there is one, of the type of `value`.
+    fn change_entry(&mut self, index: usize, value: Number) -> bool;
+}
+
+macro_rules! numbers {
+    ($($number:ty, $c:literal, |$value:ident| $nan:expr;)*) => { $(
+        impl sealed::Listed for $number {}
+        impl<const K: usize> sealed::Listed for [$number; K] {}
+        impl<const J: usize, const K: usize> sealed::Listed for [[$number; K]; J] {}
+
+        impl FieldType for $number {
+            const BASE: &'static str = $c;
+            const DIMENSIONS: &'static [usize] = &[];
+            const ZERO: Self = 0 as $number;
+
+            fn has_nan(&self) -> bool {
+                let $value = *self;
+                $nan
+            }
+
+            fn entry(&self, index: usize) -> Option<Number> {
+                (index == 0).then_some((*self).into())
+            }
+
+            fn change_entry(&mut self, index: usize, value: Number) -> bool {
+                match (index, value.try_into()) {
+                    (0, Ok(value)) => *self = value,
+                    _ => return false,
+                }
+                true
+            }
+        }
+
+        impl<const K: usize> FieldType for [$number; K] {
+            const BASE: &'static str = $c;
+            const DIMENSIONS: &'static [usize] = &[K];
+            const ZERO: Self = [0 as $number; K];
+
+            fn has_nan(&self) -> bool {
+                self.iter().any(FieldType::has_nan)
+            }
+
+            fn entry(&self, index: usize) -> Option<Number> {
+                self.get(index)?.entry(0)
+            }
+
+            fn change_entry(&mut self, index: usize, value: Number) -> bool {
+                self.get_mut(index).is_some_and(|number| number.change_entry(0, value))
+            }
+        }
+
+        impl<const J: usize, const K: usize> FieldType for [[$number; K]; J] {
+            const BASE: &'static str = $c;
+            const DIMENSIONS: &'static [usize] = &[J, K];
+            const ZERO: Self = [[0 as $number; K]; J];
+
+            fn has_nan(&self) -> bool {
+                self.iter().any(FieldType::has_nan)
+            }
+
+            fn entry(&self, index: usize) -> Option<Number> {
+                self.as_flattened().get(index)?.entry(0)
+            }
+
+            fn change_entry(&mut self, index: usize, value: Number) -> bool {
+                self.as_flattened_mut().get_mut(index).is_some_and(|number| number.change_entry(0, value))
+            }
+        }
+    )* };
+}
+
+numbers! {
+    f64, "double", |value| value.is_nan();
+    f32, "float", |value| value.is_nan();
+    i8, "int8_t", |_value| false;
+    i16, "int16_t", |_value| false;
+    i32, "int32_t", |_value| false;
+    i64, "int64_t", |_value| false;
+    u8, "uint8_t", |_value| false;
+    u16, "uint16_t", |_value| false;
+    u32, "uint32_t", |_value| false;
+    u64, "uint64_t", |_value| false;
+}
+
+/// One field, as the header declares it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Field {
+    /// Its name.
+    pub name: &'static str,
+    /// Its documentation, a line each.
+    pub documentation: &'static [&'static str],
+    /// The type before the name in C.
+    pub base: &'static str,
+    /// The lengths of the arrays behind it.
+    pub dimensions: &'static [usize],
+    /// Bytes before it.
+    pub offset: usize,
+}
+
+/// A system that knows its fields by name and number: a struct that [`fields!`](crate::fields) declares, for
+/// whoever fills them in.
+pub trait Fields: Copy + 'static {
+    /// The documentation of the struct, a line each.
+    const DOCUMENTATION: &'static [&'static str];
+    /// Its fields, in order.
+    const FIELDS: &'static [Field];
+    /// The system all of whose fields are 0.
+    const ZERO: Self;
+
+    /// Whether a field is NaN, or has a NaN in it.
+    fn has_nan(&self) -> bool;
+
+    /// Number `index` of field `field`, arrays row by row.
+    fn entry(&self, field: usize, index: usize) -> Option<Number>;
+
+    /// Changes number `index` of field `field`; whether there is one of this type.
+    fn change_entry(&mut self, field: usize, index: usize, value: Number) -> bool;
+}
+
+/// Declares the struct of a system, laid out as C does, with its fields by name and number.
+///
+/// Fields are numbers (`f64`, `f32`, `i8` … `u64`) or arrays of them, of one or two dimensions.
+#[macro_export]
+macro_rules! fields {
+    (
+        $(#[doc = $doc:expr])*
+        $vis:vis struct $name:ident { $($(#[doc = $field_doc:expr])* pub $field:ident: $kind:ty),* $(,)? }
+    ) => {
+        $(#[doc = $doc])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[repr(C)]
+        $vis struct $name {
+            $($(#[doc = $field_doc])* pub $field: $kind,)*
+        }
+
+        impl $crate::Fields for $name {
+            const DOCUMENTATION: &'static [&'static str] = &[$($doc),*];
+            const FIELDS: &'static [$crate::Field] = &[$($crate::Field {
+                name: stringify!($field),
+                documentation: &[$($field_doc),*],
+                base: <$kind as $crate::FieldType>::BASE,
+                dimensions: <$kind as $crate::FieldType>::DIMENSIONS,
+                offset: core::mem::offset_of!($name, $field),
+            }),*];
+            const ZERO: Self = Self { $($field: <$kind as $crate::FieldType>::ZERO,)* };
+
+            fn has_nan(&self) -> bool {
+                false $(|| <$kind as $crate::FieldType>::has_nan(&self.$field))*
+            }
+
+            fn entry(&self, field: usize, index: usize) -> Option<$crate::Number> {
+                let name = Self::FIELDS.get(field)?.name;
+                None $(.or_else(|| if name == stringify!($field) { <$kind as $crate::FieldType>::entry(&self.$field, index) } else { None }))*
+            }
+
+            fn change_entry(&mut self, field: usize, index: usize, value: $crate::Number) -> bool {
+                let name = Self::FIELDS.get(field).map(|field| field.name);
+                false $(|| name == Some(stringify!($field)) && <$kind as $crate::FieldType>::change_entry(&mut self.$field, index, value))*
+            }
+        }
+    };
+}
+
+impl fmt::Display for Field {
+    /// As C declares it: `double c[2]`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.base, self.name)?;
+        self.dimensions.iter().try_for_each(|length| write!(f, "[{length}]"))
+    }
+}

@@ -1,0 +1,47 @@
+//! A number that tells layouts apart.
+
+use crate::Field;
+
+/// A number that stands for the layout of memory and parameters: FNV-1a over names, types and offsets, the
+/// method and the version of the library. Header and library of different builds differ in it.
+#[must_use]
+pub const fn layout(fields: &[Field], words: &[&str], sizes: &[usize]) -> u64 {
+    let mut hash = 0xcbf2_9ce4_8422_2325;
+    let mut i = 0;
+    while i < fields.len() {
+        let Field { name, base, dimensions, offset, .. } = fields[i];
+        hash = with_number(with_text(with_text(hash, name), base), offset);
+        hash = with_numbers(hash, dimensions);
+        i += 1;
+    }
+    let mut i = 0;
+    while i < words.len() {
+        hash = with_text(hash, words[i]);
+        i += 1;
+    }
+    with_numbers(with_text(hash, env!("CARGO_PKG_VERSION")), sizes)
+}
+
+const fn with_text(mut hash: u64, text: &str) -> u64 {
+    let bytes = text.as_bytes();
+    let mut i = 0;
+    while i < bytes.len() {
+        hash = (hash ^ bytes[i] as u64).wrapping_mul(0x100_0000_01b3);
+        i += 1;
+    }
+    // A byte that no text has: ("ab", "c") is not ("a", "bc").
+    (hash ^ 0xff).wrapping_mul(0x100_0000_01b3)
+}
+
+const fn with_number(hash: u64, number: usize) -> u64 {
+    (hash ^ number as u64).wrapping_mul(0x100_0000_01b3)
+}
+
+const fn with_numbers(mut hash: u64, numbers: &[usize]) -> u64 {
+    let mut i = 0;
+    while i < numbers.len() {
+        hash = with_number(hash, numbers[i]);
+        i += 1;
+    }
+    with_number(hash, numbers.len())
+}
