@@ -81,11 +81,9 @@ macro_rules! c_functions {
             // Types by their paths: the user's own may have the same names.
             use $crate::boundary::{calls, read};
             use $crate::dalembert::system::Scalar as _;
-            use $crate::face::Interface as _;
             use $crate::machine;
 
             const C_COORDINATES: usize = $crate::face::coordinates(core::marker::PhantomData::<fn() -> $system>);
-            type CView<'a> = <$system as $crate::face::Described<C_COORDINATES>>::View<'a>;
             type CInput = <$system as $crate::face::Described<C_COORDINATES>>::Input;
             const C_INPUTS: usize = <$system as $crate::face::Described<C_COORDINATES>>::INPUTS;
             const C_PARAMETERS: &[&str] = <$system as $crate::face::Described<C_COORDINATES>>::PARAMETERS;
@@ -96,12 +94,11 @@ macro_rules! c_functions {
                         == $crate::c_functions!(@or false; $(!stringify!($t).is_empty())?),
                 "`takes` has u where the force takes an input, and t where L, R or f take the time",
             );
-            const _: Option<machine::Checked<CView<'static>, $rule, C_COORDINATES>> = None;
             type CScalar = <$system as $crate::face::Described<C_COORDINATES>>::Scalar;
             type CVector = [CScalar; C_COORDINATES];
 
-            /// The system by its rule.
-            type CSystem = $crate::face::By<$system, $rule>;
+            /// The system as C sees it.
+            pub enum CSystem {}
 
             /// The caller's memory: opaque in C.
             pub type CMemory = calls::Memory<CSystem, C_COORDINATES>;
@@ -144,14 +141,17 @@ macro_rules! c_functions {
             // SAFETY: repr(C), arrays of numbers of one type alone.
             unsafe impl $crate::boundary::Plain for CLinearized {}
 
-            fn linearized(
-                taken: &$crate::dalembert::step::StepTaken<'_, CView<'_>, $rule, C_COORDINATES>,
-            ) -> Result<CLinearized, $crate::dalembert::StepError> {
-                Ok(CLinearized {
-                    by_state: machine::rows_by_state(&taken.by_state()?),
-                    by_input: machine::rows(CSystem::by_input(taken)?.as_ref()),
-                    by_parameters: machine::rows(CSystem::by_parameters(taken)?.as_ref()),
-                })
+            impl machine::Entered<C_COORDINATES> for CSystem {
+                const SIGNATURE: u64 = LAYOUT;
+                type Of = $crate::face::By<$system, $rule>;
+                type Linearized = CLinearized;
+
+                fn linearized(
+                    taken: &machine::Taken<'_, '_, Self, C_COORDINATES>,
+                ) -> Result<CLinearized, $crate::dalembert::StepError> {
+                    let (by_state, by_input, by_parameters) = machine::rows::<Self::Of, _, _, _, _>(taken)?;
+                    Ok(CLinearized { by_state, by_input, by_parameters })
+                }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_init_with"))]
@@ -168,7 +168,7 @@ macro_rules! c_functions {
             ) -> $crate::Status {
                 let given = || Ok((<CInput as $crate::face::Input<CScalar>>::zero(), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?)));
                 // SAFETY: the caller's promise.
-                unsafe { calls::init::<CSystem, C_COORDINATES>(memory, LAYOUT, (size, layout), parameters, h, given, [q, v]) }
+                unsafe { calls::init::<CSystem, C_COORDINATES>(memory, (size, layout), parameters, h, given, [q, v]) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_step"))]
@@ -180,7 +180,7 @@ macro_rules! c_functions {
                 report: *mut $crate::CReport,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::step::<CSystem, C_COORDINATES>(memory, LAYOUT, || Ok(($crate::c_functions!(@or <CInput as $crate::face::Input<CScalar>>::zero(); $(machine::input(read($u)?)?)?), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), report) }
+                unsafe { calls::step::<CSystem, C_COORDINATES>(memory, || Ok(($crate::c_functions!(@or <CInput as $crate::face::Input<CScalar>>::zero(); $(machine::input(read($u)?)?)?), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), report) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_step_linearized"))]
@@ -193,7 +193,7 @@ macro_rules! c_functions {
                 linearized: *mut CLinearized,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::step_linearized::<CSystem, _, C_COORDINATES>(memory, LAYOUT, || Ok(($crate::c_functions!(@or <CInput as $crate::face::Input<CScalar>>::zero(); $(machine::input(read($u)?)?)?), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), report, linearized, self::linearized) }
+                unsafe { calls::step_linearized::<CSystem, C_COORDINATES>(memory, || Ok(($crate::c_functions!(@or <CInput as $crate::face::Input<CScalar>>::zero(); $(machine::input(read($u)?)?)?), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), report, linearized) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_state"))]
@@ -204,7 +204,7 @@ macro_rules! c_functions {
                 p: *mut CVector,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::state::<CSystem, C_COORDINATES>(memory, LAYOUT, [q, p]) }
+                unsafe { calls::state::<CSystem, C_COORDINATES>(memory, [q, p]) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_velocity"))]
@@ -215,7 +215,7 @@ macro_rules! c_functions {
                 v: *mut CVector,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::velocity::<CSystem, C_COORDINATES>(memory, LAYOUT, || Ok((<CInput as $crate::face::Input<CScalar>>::zero(), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), v) }
+                unsafe { calls::velocity::<CSystem, C_COORDINATES>(memory, || Ok((<CInput as $crate::face::Input<CScalar>>::zero(), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), v) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_energy"))]
@@ -226,7 +226,7 @@ macro_rules! c_functions {
                 energy: *mut CScalar,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::energy::<CSystem, C_COORDINATES>(memory, LAYOUT, || Ok((<CInput as $crate::face::Input<CScalar>>::zero(), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), energy) }
+                unsafe { calls::energy::<CSystem, C_COORDINATES>(memory, || Ok((<CInput as $crate::face::Input<CScalar>>::zero(), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), energy) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_time"))]
@@ -236,7 +236,7 @@ macro_rules! c_functions {
                 time: *mut f64,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::time::<CSystem, C_COORDINATES>(memory, LAYOUT, time) }
+                unsafe { calls::time::<CSystem, C_COORDINATES>(memory, time) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_state_after"))]
@@ -250,7 +250,7 @@ macro_rules! c_functions {
                 p: *mut CVector,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::state_after::<CSystem, C_COORDINATES>(memory, LAYOUT, || Ok(($crate::c_functions!(@or <CInput as $crate::face::Input<CScalar>>::zero(); $(machine::input(read($u)?)?)?), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), after, [q, p]) }
+                unsafe { calls::state_after::<CSystem, C_COORDINATES>(memory, || Ok(($crate::c_functions!(@or <CInput as $crate::face::Input<CScalar>>::zero(); $(machine::input(read($u)?)?)?), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), after, [q, p]) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_set_state"))]
@@ -261,7 +261,7 @@ macro_rules! c_functions {
                 p: *const CVector,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::set_state::<CSystem, C_COORDINATES>(memory, LAYOUT, [q, p]) }
+                unsafe { calls::set_state::<CSystem, C_COORDINATES>(memory, [q, p]) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_set_parameters"))]
@@ -271,7 +271,7 @@ macro_rules! c_functions {
                 parameters: *const $system,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::set_parameters::<CSystem, C_COORDINATES>(memory, LAYOUT, parameters) }
+                unsafe { calls::set_parameters::<CSystem, C_COORDINATES>(memory, parameters) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_set_step_size"))]
@@ -281,7 +281,7 @@ macro_rules! c_functions {
                 h: CScalar,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::set_step_size::<CSystem, C_COORDINATES>(memory, LAYOUT, h) }
+                unsafe { calls::set_step_size::<CSystem, C_COORDINATES>(memory, h) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_text"))]

@@ -1,9 +1,7 @@
 //! A run as the caller's memory holds it, and what a call does with it: the same for every system.
 
-use core::marker::PhantomData;
-
 use dalembert::run::DrivenTrajectory;
-use dalembert::step::{Flow, Linearizable, PhaseMatrix, Quantity};
+use dalembert::step::{Flow, PhaseMatrix, Quantity, StepTaken};
 use dalembert::system::Scalar;
 use dalembert::{State, StepError};
 use dalembert_face::{Column, Interface};
@@ -11,25 +9,41 @@ use dalembert_face::{Column, Interface};
 use crate::boundary::{Plain, refused};
 use crate::{CParameters, Status};
 
-/// A system that the functions of C can step. Where an entry of [`c_api!`](crate::c_api) does not fit, the
-/// compiler says so once, by the message of this trait.
-#[diagnostic::on_unimplemented(
-    message = "C cannot step `{Self}` by `{M}` with {N} coordinates",
-    label = "no step by this rule",
-    note = "`rule` is one of those that `#[rayleigh_system(rule = …)]` lists, midpoint if none"
-)]
-pub trait Stepped<M, const N: usize>: Linearizable<M, N> {}
-
-#[diagnostic::do_not_recommend]
-impl<V: Linearizable<M, N>, M, const N: usize> Stepped<M, N> for V {}
-
-/// That a system is [`Stepped`], as a type: said before anything that follows from its not being so.
-pub struct Checked<V: Stepped<M, N>, M, const N: usize>(PhantomData<fn() -> (V, M)>);
-
 /// A system by a rule whose numbers C reads as they are.
 pub trait Plainly<const N: usize>: Interface<N, System: CParameters, Scalar: Plain> {}
 
+#[diagnostic::do_not_recommend]
 impl<I: Interface<N, System: CParameters, Scalar: Plain>, const N: usize> Plainly<N> for I {}
+
+/// A system as the functions of C enter it: a type of its own in each [`c_api!`](crate::c_api), so that a wrong
+/// rule is said of it once, and not of each function.
+pub trait Entered<const N: usize>: 'static {
+    /// The signature that a memory of this system begins with: [`layout`](dalembert_face::layout).
+    const SIGNATURE: u64;
+    /// The system by its rule.
+    type Of: Plainly<N>;
+    /// The derivatives of a step, as C reads them.
+    type Linearized: Plain;
+
+    /// The derivatives of a step.
+    ///
+    /// # Errors
+    /// [`StepError::NonFinite`].
+    fn linearized(taken: &Taken<'_, '_, Self, N>) -> Result<Self::Linearized, StepError>;
+}
+
+/// The struct of the system.
+pub type System<C, const N: usize> = <<C as Entered<N>>::Of as Interface<N>>::System;
+/// `f64` or `f32`.
+pub type Number<C, const N: usize> = <<C as Entered<N>>::Of as Interface<N>>::Scalar;
+/// The rule.
+pub type Rule<C, const N: usize> = <<C as Entered<N>>::Of as Interface<N>>::Rule;
+/// The system with its input and time.
+pub type View<'a, C, const N: usize> = <<C as Entered<N>>::Of as Interface<N>>::View<'a>;
+/// A step that was just taken.
+pub type Taken<'a, 's, C, const N: usize> = StepTaken<'a, View<'s, C, N>, Rule<C, N>, N>;
+/// u and t of a step.
+pub type Given<C, const N: usize> = (<<C as Entered<N>>::Of as Interface<N>>::Input, Number<C, N>);
 
 /// The parameters and the run of a system: what lies behind the signature.
 pub struct Machine<I: Interface<N>, const N: usize> {
@@ -94,10 +108,7 @@ pub fn state_after<L: Flow<M, N>, M, const N: usize>(
 }
 
 /// A = ∂(q1, p1)/∂(q0, p0) in rows of (q1, p1), a column each of (q0, p0).
-#[must_use]
-pub fn rows_by_state<S: Scalar, const N: usize, const ROWS: usize>(
-    a: &PhaseMatrix<S, N>,
-) -> [[S; ROWS]; ROWS] {
+fn rows_by_state<S: Scalar, const N: usize, const ROWS: usize>(a: &PhaseMatrix<S, N>) -> [[S; ROWS]; ROWS] {
     core::array::from_fn(|row| {
         core::array::from_fn(|column| {
             let block = match (row < N, column < N) {
@@ -111,9 +122,23 @@ pub fn rows_by_state<S: Scalar, const N: usize, const ROWS: usize>(
     })
 }
 
-/// Derivatives in rows of (q1, p1), a column each of what they are by.
-#[must_use]
-pub fn rows<S: Scalar, const N: usize, const K: usize, const ROWS: usize>(
+/// The derivatives of a step by state, input and parameters, as matrices of S.
+pub type Rows<S, const M: usize, const P: usize, const ROWS: usize> =
+    ([[S; ROWS]; ROWS], [[S; M]; ROWS], [[S; P]; ROWS]);
+
+/// The derivatives of a step, in rows of (q1, p1).
+///
+/// # Errors
+/// [`StepError::NonFinite`].
+pub fn rows<I: Interface<N>, const N: usize, const M: usize, const P: usize, const ROWS: usize>(
+    taken: &StepTaken<'_, I::View<'_>, I::Rule, N>,
+) -> Result<Rows<I::Scalar, M, P, ROWS>, StepError> {
+    let (by_input, by_parameters) = (I::by_input(taken)?, I::by_parameters(taken)?);
+    let by_state = rows_by_state(&taken.by_state()?);
+    Ok((by_state, rows_by(by_input.as_ref()), rows_by(by_parameters.as_ref())))
+}
+
+fn rows_by<S: Scalar, const N: usize, const K: usize, const ROWS: usize>(
     columns: &[Column<S, N>],
 ) -> [[S; K]; ROWS] {
     let entry = |row: usize, [q, p]: &Column<S, N>| if row < N { q[row % N] } else { p[row % N] };

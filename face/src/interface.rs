@@ -39,6 +39,11 @@ impl<S: Scalar, const M: usize> Input<S> for [S; M] {
 }
 
 /// A system by a rule: [`By`] of the two.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no steps: the system is not discretised by this rule",
+    label = "no step by this rule",
+    note = "the rule is one of those that `#[rayleigh_system(rule = …)]` lists, midpoint if none"
+)]
 pub trait Interface<const N: usize>: Sized + 'static {
     /// The struct of the system.
     type System: Described<N, Scalar = Self::Scalar> + Fields;
@@ -78,6 +83,7 @@ pub trait Interface<const N: usize>: Sized + 'static {
 /// The system S by the rule R.
 pub struct By<S, R>(PhantomData<fn() -> (S, R)>);
 
+#[diagnostic::do_not_recommend]
 impl<S, R, K, const N: usize> Interface<N> for By<S, R>
 where
     S: Described<N> + Fields,
