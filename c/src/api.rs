@@ -35,11 +35,11 @@
 /// }
 /// ```
 ///
-/// `cart` is the prefix of all names in C; `Cart` the struct, which [`parameters!`](crate::parameters) declares and
-/// the attribute describes, imported by its name where it stands in another module of the crate; the rule one of the
-/// attribute's, or `Gauss<4>`. The functions take u and t where L, R or f do, and a linearised step has derivatives
-/// by the parameters that the attribute lists. Of a system of another crate one says besides what the functions take,
-/// `takes: [u, t]`, `[u]`, `[t]` or `[]`: it is held against the system.
+/// `cart` is the prefix of all names in C; `Cart` the struct, which [`parameters!`](crate::parameters) declares
+/// and the attribute describes, imported by its name where it stands in another module of the crate; the rule
+/// one of the attribute's, or `Gauss<4>`. The functions take u and t where L, R or f do, and a linearised step
+/// has derivatives by the parameters that the attribute lists. Of a system of another crate one says besides
+/// what the functions take, `takes: [u, t]`, `[u]`, `[t]` or `[]`: it is held against the system.
 ///
 /// It makes a module of the prefix's name with the functions, which C calls and Rust cannot do without
 /// `unsafe`, and `HEADER`, which is written by `HEADER.to_string()`.

@@ -15,8 +15,8 @@ pub trait Plainly<const N: usize>: Interface<N, System: CParameters, Scalar: Pla
 #[diagnostic::do_not_recommend]
 impl<I: Interface<N, System: CParameters, Scalar: Plain>, const N: usize> Plainly<N> for I {}
 
-/// A system as the functions of C enter it: a type of its own in each [`c_api!`](crate::c_api), so that a wrong
-/// rule is said of it once, and not of each function.
+/// A system as the functions of C enter it: a type of its own in each [`c_api!`](crate::c_api), so that a
+/// wrong rule is said of it, and not of each function.
 pub trait Entered<const N: usize>: 'static {
     /// The signature that a memory of this system begins with: [`layout`](dalembert_face::layout).
     const SIGNATURE: u64;
@@ -38,6 +38,8 @@ pub type System<C, const N: usize> = <<C as Entered<N>>::Of as Interface<N>>::Sy
 pub type Number<C, const N: usize> = <<C as Entered<N>>::Of as Interface<N>>::Scalar;
 /// The rule.
 pub type Rule<C, const N: usize> = <<C as Entered<N>>::Of as Interface<N>>::Rule;
+/// Views as a run names them.
+pub type Kind<C, const N: usize> = <<C as Entered<N>>::Of as Interface<N>>::Kind;
 /// The system with its input and time.
 pub type View<'a, C, const N: usize> = <<C as Entered<N>>::Of as Interface<N>>::View<'a>;
 /// A step that was just taken.
@@ -46,14 +48,14 @@ pub type Taken<'a, 's, C, const N: usize> = StepTaken<'a, View<'s, C, N>, Rule<C
 pub type Given<C, const N: usize> = (<<C as Entered<N>>::Of as Interface<N>>::Input, Number<C, N>);
 
 /// The parameters and the run of a system: what lies behind the signature.
-pub struct Machine<I: Interface<N>, const N: usize> {
+pub struct Machine<C: Entered<N>, const N: usize> {
     /// The system, as C filled it in.
-    pub system: I::System,
+    pub system: System<C, N>,
     /// The run of its views.
-    pub run: DrivenTrajectory<I::Kind, I::Rule, N>,
+    pub run: DrivenTrajectory<Kind<C, N>, Rule<C, N>, N>,
 }
 
-impl<I: Interface<N>, const N: usize> Clone for Machine<I, N> {
+impl<C: Entered<N>, const N: usize> Clone for Machine<C, N> {
     fn clone(&self) -> Self {
         Self { system: self.system, run: self.run.clone() }
     }

@@ -93,9 +93,9 @@ pub use unit::Unit;
 /// }
 /// ```
 ///
-/// The entries are the name of the unit and the struct of the system, its rule, h, the parameters, and the start,
-/// the last three each until the importer sets another. A library holds one unit: FMI names its functions alike in all. A field that has
-/// the name of another variable of the unit is refused:
+/// The entries are the name of the unit and the struct of the system, its rule, h, the parameters, and the
+/// start, the last three each until the importer sets another. A library holds one unit: FMI names its
+/// functions alike in all. A field that has the name of another variable of the unit is refused:
 ///
 /// ```compile_fail,E0080
 /// # use dalembert::{Midpoint, rayleigh_system};

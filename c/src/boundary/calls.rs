@@ -16,7 +16,7 @@ use crate::{CReport, Status};
 type Vector<C, const N: usize> = [Number<C, N>; N];
 
 /// The caller's memory: opaque in C.
-pub type Memory<C, const N: usize> = Held<Machine<<C as Entered<N>>::Of, N>>;
+pub type Memory<C, const N: usize> = Held<Machine<C, N>>;
 
 fn viewed<C: Entered<N>, const N: usize>(system: &System<C, N>, (u, t): Given<C, N>) -> View<'_, C, N> {
     C::Of::view(system, u, t)
@@ -77,7 +77,7 @@ pub unsafe fn step<C: Entered<N>, const N: usize>(
     given: impl FnOnce() -> Result<Given<C, N>, Status>,
     report: *mut CReport,
 ) -> Status {
-    let ask = |Machine { system, run }: &mut Machine<C::Of, N>| {
+    let ask = |Machine { system, run }: &mut Machine<C, N>| {
         let given = given()?;
         optional(report)?;
         // A run that fails here has not been written to: nothing has to be put back.
@@ -99,7 +99,7 @@ pub unsafe fn step_linearized<C: Entered<N>, const N: usize>(
     report: *mut CReport,
     linearized: *mut C::Linearized,
 ) -> Status {
-    let ask = |Machine { system, run }: &mut Machine<C::Of, N>| {
+    let ask = |Machine { system, run }: &mut Machine<C, N>| {
         let given = given()?;
         optional(report)?;
         seen(linearized)?;
@@ -124,7 +124,7 @@ pub unsafe fn state<C: Entered<N>, const N: usize>(
     memory: *const Memory<C, N>,
     [q, p]: [*mut Vector<C, N>; 2],
 ) -> Status {
-    let ask = |machine: &Machine<C::Of, N>| {
+    let ask = |machine: &Machine<C, N>| {
         let at = machine.run.state();
         // SAFETY: the caller's promise.
         unsafe { both(q, at.q.into(), p, at.p.into()) }
@@ -142,7 +142,7 @@ pub unsafe fn velocity<C: Entered<N>, const N: usize>(
     given: impl FnOnce() -> Result<Given<C, N>, Status>,
     v: *mut Vector<C, N>,
 ) -> Status {
-    let ask = |Machine { system, run }: &Machine<C::Of, N>| {
+    let ask = |Machine { system, run }: &Machine<C, N>| {
         seen(v)?;
         let velocity = run.state().velocity(&viewed::<C, N>(system, given()?))?;
         // SAFETY: the caller's promise.
@@ -161,7 +161,7 @@ pub unsafe fn energy<C: Entered<N>, const N: usize>(
     given: impl FnOnce() -> Result<Given<C, N>, Status>,
     energy: *mut Number<C, N>,
 ) -> Status {
-    let ask = |Machine { system, run }: &Machine<C::Of, N>| {
+    let ask = |Machine { system, run }: &Machine<C, N>| {
         seen(energy)?;
         let value = run.state().energy(&viewed::<C, N>(system, given()?))?;
         if !value.is_finite() {
@@ -179,7 +179,7 @@ pub unsafe fn energy<C: Entered<N>, const N: usize>(
 /// # Safety
 /// The caller's promise.
 pub unsafe fn time<C: Entered<N>, const N: usize>(memory: *const Memory<C, N>, time: *mut f64) -> Status {
-    let ask = |machine: &Machine<C::Of, N>| {
+    let ask = |machine: &Machine<C, N>| {
         seen(time)?;
         // SAFETY: the caller's promise.
         unsafe { write(time, machine.run.time()) }
@@ -198,7 +198,7 @@ pub unsafe fn state_after<C: Entered<N>, const N: usize>(
     after: Number<C, N>,
     [q, p]: [*mut Vector<C, N>; 2],
 ) -> Status {
-    let ask = |Machine { system, run }: &Machine<C::Of, N>| {
+    let ask = |Machine { system, run }: &Machine<C, N>| {
         let at =
             machine::state_after::<_, Rule<C, N>, N>(&viewed::<C, N>(system, given()?), after, run.state())?;
         // SAFETY: the caller's promise.
@@ -216,7 +216,7 @@ pub unsafe fn set_state<C: Entered<N>, const N: usize>(
     memory: *mut Memory<C, N>,
     [q, p]: [*const Vector<C, N>; 2],
 ) -> Status {
-    let ask = |machine: &mut Machine<C::Of, N>| {
+    let ask = |machine: &mut Machine<C, N>| {
         // SAFETY: the caller's promise.
         let (q, p) = unsafe { (read(q)?, read(p)?) };
         machine.run.correct(machine::state(q, p)?);
@@ -234,7 +234,7 @@ pub unsafe fn set_parameters<C: Entered<N>, const N: usize>(
     memory: *mut Memory<C, N>,
     parameters: *const System<C, N>,
 ) -> Status {
-    let ask = |machine: &mut Machine<C::Of, N>| {
+    let ask = |machine: &mut Machine<C, N>| {
         // SAFETY: the caller's promise.
         let system = machine::parameters(unsafe { read(parameters)? })?;
         *machine = Machine { system, run: DrivenTrajectory::resume(machine.run.present()) };
@@ -252,7 +252,7 @@ pub unsafe fn set_step_size<C: Entered<N>, const N: usize>(
     memory: *mut Memory<C, N>,
     h: Number<C, N>,
 ) -> Status {
-    let ask = |machine: &mut Machine<C::Of, N>| {
+    let ask = |machine: &mut Machine<C, N>| {
         require_step_size(h)?;
         machine.run.change_step_size(h);
         Ok(())

@@ -16,7 +16,7 @@ const CEILINGS: &[(&str, usize)] = &[
     ("firmware", 2),
     ("fmu", 1),
     ("macros", 5),
-    ("python", 28),
+    ("python", 24),
     ("report", 3),
     ("runtime", 45),
     ("scenes", 5),
