@@ -1,8 +1,7 @@
 //! A system as other languages see it: its fields by name and number, and its steps by a rule.
 //!
-//! `#[rayleigh_system]` describes a system ([`Described`]), and [`fields!`] the struct of its fields. Of
-//! the two [`By`] makes what the bindings to C, FMI and Python step: each stands on this crate, and on no other of
-//! them.
+//! `#[rayleigh_system]` describes a system ([`Described`]), and [`fields!`] the struct of its fields. Of the
+//! two [`By`] makes what the bindings to C, FMI and Python step: each stands on this crate, none on another.
 
 #![no_std]
 
