@@ -30,3 +30,51 @@ pub use crate::system::{
     Operation, Parameters, Place, Plain, PlainFields, Quantity, Rayleigh, Refusal, ScalarField, SecondOrder,
     SliceMethods, Stages, Structure, TimeScale, VectorField, Written,
 };
+
+/// Implements [`Described`](crate::system::Described), and makes a macro of the system's name, which hands `input` and `time`, as far as
+/// the system takes them, to another macro: how many arguments a function of C has is text, which no trait can
+/// give.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! described {
+    (
+        $system:ident $([$view:ident $function:ident])?: $scalar:ident, $n:expr
+        $(, input $u:ident $inputs:expr)? $(, time $time:ident)? $(, parameters [$($parameter:literal),+])?;
+        $words:ident $dollar:tt
+    ) => {
+        #[automatically_derived]
+        impl $crate::system::Described<{ $n }> for $system {
+            type Scalar = $scalar;
+            type Input = $crate::generated::described!(@or () $(; [$scalar; $inputs])?);
+            type Parameters = $crate::generated::described!(@or () $(; [&'static str; [$($parameter),+].len()])?);
+            type View<'a> = $crate::generated::described!(@or Self $(; $view<'a>)?);
+
+            const INPUTS: usize = 0 $(+ $inputs)?;
+            const TAKES_TIME: bool = [$(stringify!($time),)? ""].len() == 2;
+            const PARAMETERS: &'static [&'static str] = &[$($($parameter),+)?];
+
+            #[inline]
+            #[allow(unused_variables)]
+            fn view(&self, itself: Self, u: Self::Input, t: $scalar) -> Self::View<'_> {
+                $crate::generated::described!(@view itself self $([$function])?, $([$u u])? $([$time t])?)
+            }
+        }
+
+        #[doc(hidden)]
+        #[allow(unused_macros)]
+        macro_rules! $words {
+            ($dollar then:path { $dollar($dollar before:tt)* }) => {
+                $dollar then! { $dollar($dollar before)* $(input $u)? $(time $time)? }
+            };
+        }
+        #[doc(hidden)]
+        #[allow(unused_imports)]
+        pub(crate) use $words as $system;
+    };
+    (@view $itself:ident $system:ident, ) => { $itself };
+    (@view $itself:ident $system:ident [$function:ident], $([$name:ident $value:ident])+) => {
+        $system.$function($($value),+)
+    };
+    (@or $other:tt) => { $other };
+    (@or $other:tt; $($own:tt)+) => { $($own)+ };
+}

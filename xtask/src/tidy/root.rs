@@ -99,6 +99,7 @@ fn unnamed(shell: &Shell) -> Result<Vec<String>> {
         "benches",
         "docs",
         "examples",
+        "face",
         "firmware",
         "macros",
         "report",
