@@ -31,6 +31,7 @@ use super::write::item::{are_plain, as_written};
 use super::write::{self, EngineFunctions, Kernel, view};
 use body::{Shape, matrix, of_segment, parameter, unused};
 pub use stages::CONDITIONAL;
+use stages::StagesWritten;
 
 /// The whole expansion: the user's item as it stands, and the system with its derivatives.
 ///
@@ -109,40 +110,31 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         n,
         m,
         derivation: Differentiation::default(),
-        home: system.home_of(Part::Lagrangian),
+        heaviest,
         is_portable,
         calls_elementary: false,
-        longest: 0,
     };
-    let heaviest = heaviest.as_ref();
     let force = force.as_deref();
-    let of_lagrangian = code.function("lagrangian", "l", lagrangian);
-    code.bounded(heaviest)?;
-    code.home = system.home_of(Part::Rayleigh);
-    let of_rayleigh = rayleigh.map(|root| code.function("rayleigh", "r", root));
-    code.bounded(heaviest)?;
-    code.home = system.home();
-    let of_force = force.map(|components| code.force(components));
-    let time_scale = time_scale.map(|root| code.time_scale(root));
-    let by_input =
-        force.zip(system.input.as_ref()).map(|(components, input)| code.by_input(components, input));
-    code.bounded(heaviest)?;
-    let by_parameters = code.all_by_parameters(lagrangian, rayleigh, force);
-    let second_order = code.all_along(lagrangian, rayleigh, force);
-    code.bounded(heaviest)?;
+    let of_lagrangian = code.function(Part::Lagrangian, "l", lagrangian)?;
+    let of_rayleigh = rayleigh.map(|root| code.function(Part::Rayleigh, "r", root)).transpose()?;
+    let of_force = force.map(|components| code.force(components)).transpose()?;
+    let time_scale = time_scale.map(|root| code.time_scale(root)).transpose()?;
+    let by_input = force
+        .zip(system.input.as_ref())
+        .map(|(components, input)| code.by_input(components, input))
+        .transpose()?;
+    let by_parameters = code.all_by_parameters(lagrangian, rayleigh, force)?;
+    let second_order = code.all_along(lagrangian, rayleigh, force)?;
     let findings = code.findings(lagrangian, rayleigh, force);
-    let stages = system.rules.gauss.then(|| code.stages(lagrangian, rayleigh, force)).transpose();
-    let (stages, lacks_stages) = stages.map_or_else(|lacks| (None, Some(lacks)), |stages| (stages, None));
-    let (stages, stages_in_lanes) = stages.map(|stages| (stages.function, stages.in_lanes)).unzip();
-    let stages_in_lanes = stages_in_lanes.flatten();
-    code.bounded(heaviest)?;
+    let StagesWritten { function: stages, in_lanes: stages_in_lanes, lacks: lacks_stages } =
+        system.rules.gauss.then(|| code.stages(lagrangian, rayleigh, force)).transpose()?.unwrap_or_default();
     let mut kernels = Vec::new();
     for newton in &findings.newton {
         // Rules that take L and R together bring their own kernel.
         let is_own = newton.rule.joint().is_none();
-        kernels.push(is_own.then(|| code.kernel(newton, lagrangian, rayleigh, force)));
-        code.bounded(heaviest)?;
+        kernels.push(is_own.then(|| code.kernel(newton, lagrangian, rayleigh, force)).transpose()?);
     }
+    code.complete()?;
     let cancelling_terms = system
         .rules
         .ask_for_cancelling_terms()
@@ -185,6 +177,9 @@ fn names_of_lanes<'c>(code: impl Iterator<Item = &'c TokenStream>) -> Vec<&'stat
     names.into_iter().filter(|name| occurs(name)).collect()
 }
 
+/// Code, or the refusal of what is too long.
+type Written<T> = Result<T, Refusal>;
+
 /// A system while its code is written.
 struct Code<'s> {
     system: &'s System<'s>,
@@ -195,29 +190,14 @@ struct Code<'s> {
     /// Entries of the input.
     m: usize,
     derivation: Differentiation,
-    /// The type that the function being written stands on.
-    home: Home,
+    /// The loop that writes most, if there is any.
+    heaviest: Option<Load>,
     is_portable: bool,
     /// Whether any function written calls one of the runtime's elementary functions.
     calls_elementary: bool,
-    /// Operations of the longest function.
-    longest: usize,
 }
 
 impl Code<'_> {
-    /// Refuses what is too long, at the loop that writes most of it.
-    fn bounded(&self, heaviest: Option<&Load>) -> Result<(), Refusal> {
-        let length = match self.longest {
-            longest if longest > MOST_OPERATIONS => Length::Function(longest),
-            _ if self.graph.is_full() => Length::Unknown,
-            _ => return Ok(()),
-        };
-        Err(match heaviest {
-            Some(heaviest) => heaviest.refusal(length),
-            None => length.of(self.system.source.name()),
-        })
-    }
-
     /// Finds the system's structure in its expressions.
     fn findings(&mut self, lagrangian: Node, rayleigh: Option<Node>, force: Option<&[Node]>) -> Findings {
         let mut differentiated = |root: Node, symbol: &str| Differentiated {

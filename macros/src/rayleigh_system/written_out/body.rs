@@ -3,43 +3,48 @@
 use super::*;
 
 impl Code<'_> {
-    /// The code for `outputs` at (q, v), and at the view's own input and time.
-    pub(super) fn code(&mut self, outputs: &[Node]) -> StraightLine {
-        self.code_taking(outputs, &[])
+    /// The code for `outputs` at (q, v), and at the view's own input and time, in a function of `home`.
+    pub(super) fn code(&mut self, home: Home, outputs: &[Node]) -> Written<StraightLine> {
+        self.code_taking(home, outputs, &[])
     }
 
     /// [`code`](Self::code) for a function with further parameters.
-    pub(super) fn code_taking(&mut self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
-        let mut line = self.code_at_node(outputs, parameters);
+    pub(super) fn code_taking(
+        &mut self,
+        home: Home,
+        outputs: &[Node],
+        parameters: &[&str],
+    ) -> Written<StraightLine> {
+        let outputs = self.shortened(outputs)?;
+        let mut line = self.code_as_it_stands(home, &outputs, parameters);
         if line.uses("t") {
             let statements = &line.statements;
             line.statements = quote!(let t = self.t; #statements);
         }
-        line
+        Ok(line)
     }
 
-    /// [`code_taking`](Self::code_taking) without `let t = self.t`.
-    pub(super) fn code_at_node(&mut self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
-        let outputs = self.shortened(outputs);
-        self.code_as_it_stands(&outputs, parameters)
-    }
-
-    /// [`code_at_node`](Self::code_at_node) for outputs that are shortened already.
-    pub(super) fn code_as_it_stands(&mut self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
+    /// [`code_taking`](Self::code_taking) for outputs that are shortened already, without `let t = self.t`.
+    pub(super) fn code_as_it_stands(
+        &mut self,
+        home: Home,
+        outputs: &[Node],
+        parameters: &[&str],
+    ) -> StraightLine {
         let mut taken = vec!["q", "v", "h", "half", "q0", "q1", "minus", "plus"];
         // Without a view, u and t are free for the user's own names.
-        if self.home == Home::View {
+        if home == Home::View {
             taken.extend(["u", "t", "t_end"]);
         }
         taken.extend(parameters);
         let line = straight_line(&self.graph, &self.system.scalar, outputs, &taken, self.is_portable);
         self.calls_elementary |= line.calls_elementary;
-        self.seen(line)
+        self.seen(home, line)
     }
 
-    /// The line as it stands on a view, where there is one.
-    pub(super) fn seen(&self, mut line: StraightLine) -> StraightLine {
-        if self.home == Home::View {
+    /// The line as it stands in a function of `home`.
+    pub(super) fn seen(&self, home: Home, mut line: StraightLine) -> StraightLine {
+        if home == Home::View {
             let seen = |tokens: TokenStream| view::seen_from_view(tokens, &self.system.name);
             let statements = seen(line.statements);
             let input = line.uses_inputs.then(|| quote!(let u = self.u;));
@@ -49,22 +54,35 @@ impl Code<'_> {
         line
     }
 
-    /// Rewrites `outputs` in few operations; gives zeros where they are too long to be written.
-    pub(super) fn shortened(&mut self, outputs: &[Node]) -> Vec<Node> {
-        let zeros = |graph: &mut Graph| vec![graph.constant(0.0); outputs.len()];
-        if self.graph.is_full() {
-            return zeros(&mut self.graph);
+    /// Rewrites `outputs` in few operations, unless they are too long to be written.
+    pub(super) fn shortened(&mut self, outputs: &[Node]) -> Written<Vec<Node>> {
+        let shortened = self.rounded(outputs)?;
+        match self.graph.operations(shortened.iter().copied()) {
+            operations if operations > MOST_OPERATIONS => Err(self.too_long(Length::Function(operations))),
+            _ => Ok(shortened),
         }
-        let shortened = self.rounded(outputs);
-        let operations = self.graph.operations(shortened.iter().copied());
-        self.longest = self.longest.max(operations);
-        if operations > MOST_OPERATIONS { zeros(&mut self.graph) } else { shortened }
     }
 
     /// Rewrites `outputs` in fewer operations, rounded as the attribute says.
-    pub(super) fn rounded(&mut self, outputs: &[Node]) -> Vec<Node> {
+    pub(super) fn rounded(&mut self, outputs: &[Node]) -> Written<Vec<Node>> {
+        self.complete()?;
         let factored = self.graph.factored(outputs, self.written);
-        if self.system.is_fused { self.graph.fused(&factored, self.written) } else { factored }
+        let rounded = if self.system.is_fused { self.graph.fused(&factored, self.written) } else { factored };
+        self.complete()?;
+        Ok(rounded)
+    }
+
+    /// Refuses a graph that had no room for all expressions: those in it are not the system's then.
+    pub(super) fn complete(&self) -> Written<()> {
+        if self.graph.is_full() { Err(self.too_long(Length::Unknown)) } else { Ok(()) }
+    }
+
+    /// The refusal of what is too long, at the loop that writes most of it.
+    fn too_long(&self, length: Length) -> Refusal {
+        match &self.heaviest {
+            Some(heaviest) => heaviest.refusal(length),
+            None => length.of(self.system.source.name()),
+        }
     }
 
     /// Splits outputs into scalars, vectors and matrices.

@@ -65,7 +65,7 @@ impl Code<'_> {
         let momenta = self.covector(&of_lagrangian, true);
         let terms = [momenta, self.rates(&of_lagrangian, rayleigh, force)].concat();
         let sizes = self.sizes_of_cancelling(&terms)?;
-        let line = self.code(&sizes);
+        let line = self.code(self.system.home(), &sizes).ok()?;
         let [momentum, rate] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
         let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
         let (statements, scalar, n) = (&line.statements, &self.system.scalar, self.system.degrees.times(1));

@@ -5,20 +5,20 @@ use super::*;
 
 impl Code<'_> {
     /// `lagrangian_variations`
-    pub(super) fn variations(&mut self, of: &Derivatives) -> TokenStream {
+    pub(super) fn variations(&mut self, of: &Derivatives) -> Written<TokenStream> {
         let scalar = &self.system.scalar;
         let n = self.system.degrees.times(1);
         let [minus, plus] = ["minus", "plus"].map(|name| Along::parameters(&mut self.graph, name));
         let first = [minus, plus].map(|along| self.along(&of.gradient, along));
         let mixed = self.matrix(|code, i, j| code.mixed(of, (i, minus), (j, plus)));
         let outputs = [first.concat(), mixed].concat();
-        let line = self.code(&outputs);
+        let line = self.code(self.system.home_of(Part::Lagrangian), &outputs)?;
         let [by_minus, by_plus, mixed] =
             self.parts(&line.outputs, [Shape::Vector, Shape::Vector, Shape::Matrix]);
         let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
         let (minus, plus) = (parameter("minus", line.uses("minus")), parameter("plus", line.uses("plus")));
         let statements = &line.statements;
-        quote! {
+        Ok(quote! {
             #[inline]
             fn lagrangian_variations(
                 &self,
@@ -30,7 +30,7 @@ impl Code<'_> {
                 #statements
                 Variations { minus: #by_minus, plus: #by_plus, mixed: #mixed }
             }
-        }
+        })
     }
 
     /// Entry i: first ∂f/∂qᵢ + second ∂f/∂vᵢ.

@@ -11,7 +11,7 @@ impl Code<'_> {
         &mut self,
         parts: &Parts,
         diagonals: Option<usize>,
-    ) -> (TokenStream, Option<TokenStream>) {
+    ) -> Written<(TokenStream, Option<TokenStream>)> {
         let scalar = &self.system.scalar;
         let n = self.system.degrees.times(1);
         let half = self.graph.half_step();
@@ -21,7 +21,7 @@ impl Code<'_> {
             let drag = second[1].map(|drag| code.graph.times(half, drag));
             [second[0], drag].into_iter().flatten().reduce(|a, b| code.graph.plus(a, b))
         });
-        let (line, matrix) = self.newton_matrix(&matrix, diagonals);
+        let (line, matrix) = self.newton_matrix(&matrix, diagonals)?;
         let (h, statements) = (parameter("h", line.uses("half") || line.uses("h")), &line.statements);
         let let_half = |line: &StraightLine| line.uses("half").then(|| quote!(let half = 0.5 * h;));
         let prelude = let_half(&line);
@@ -47,7 +47,7 @@ impl Code<'_> {
             }
         }
         let is_in_lanes = self.system.lanes.explicit.is_some();
-        let momenta = self.shortened(&[p0, p1].concat());
+        let momenta = self.shortened(&[p0, p1].concat())?;
         let line = self.members_code(&momenta, &TAKEN, is_in_lanes);
         let [p0, p1] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
         let (v, h) =
@@ -62,7 +62,7 @@ impl Code<'_> {
             }
         };
 
-        let force = self.shortened(&force);
+        let force = self.shortened(&force)?;
         let (p0, p1) = momenta.split_at(self.n);
         let outputs = ExplicitOutputs { force: &force, p0, p1 };
         let in_lanes = is_in_lanes.then(|| self.explicit_in_lanes(&outputs)).flatten();
@@ -82,6 +82,6 @@ impl Code<'_> {
                 #force
             }
         };
-        (functions, in_lanes)
+        Ok((functions, in_lanes))
     }
 }

@@ -116,7 +116,7 @@ impl Code<'_> {
         let taken = self.taken_with(taken);
         let (graph, scalar) = (&self.graph, &self.system.scalar);
         let line = on_members(graph, scalar, outputs, &taken, self.is_portable, handed, anchored);
-        let mut line = self.seen(line);
+        let mut line = self.seen(self.system.home(), line);
         line.fields.sort_by_key(|field| (field.is_truth, field.node));
         self.calls_elementary |= line.calls_elementary;
         line
@@ -124,7 +124,8 @@ impl Code<'_> {
 
     /// The names of parameters, and what a view declares.
     fn taken_with<'t>(&self, taken: &[&'t str]) -> Vec<&'t str> {
-        let of_view: &[&str] = if self.home == Home::View { &["u", "t", "now", "elapsed"] } else { &[] };
+        let of_view: &[&str] =
+            if self.system.home() == Home::View { &["u", "t", "now", "elapsed"] } else { &[] };
         taken.iter().chain(of_view).copied().collect()
     }
 
@@ -136,12 +137,12 @@ impl Code<'_> {
         is_in_lanes: bool,
     ) -> StraightLine {
         if !is_in_lanes {
-            return self.code_as_it_stands(outputs, &[]);
+            return self.code_as_it_stands(self.system.home(), outputs, &[]);
         }
         let taken = self.taken_with(taken);
         let line = as_on_members(&self.graph, &self.system.scalar, outputs, &taken, self.is_portable);
         self.calls_elementary |= line.calls_elementary;
-        self.seen(line)
+        self.seen(self.system.home(), line)
     }
 
     /// `type Fields` and the function that fills it; where there is a time, with the present one beside what
@@ -158,7 +159,7 @@ impl Code<'_> {
                 self.is_portable,
             );
             self.calls_elementary |= line.calls_elementary;
-            let line = self.seen(line);
+            let line = self.seen(self.system.home(), line);
             let group = format_ident!("{group}");
             let outputs = line.outputs.into_iter().map(seen_from_member);
             let statements = seen_from_member(line.statements);

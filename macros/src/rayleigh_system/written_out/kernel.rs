@@ -36,7 +36,7 @@ impl Code<'_> {
         lagrangian: Node,
         rayleigh: Option<Node>,
         force: Option<&[Node]>,
-    ) -> Kernel {
+    ) -> Written<Kernel> {
         let force = force.unwrap_or_default().to_vec();
         let lagrangian = self.derivation.hessian(&mut self.graph, lagrangian, "l");
         let rayleigh =
@@ -56,13 +56,13 @@ impl Code<'_> {
         let diagonals = diagonals(self.n, newton.bandwidth);
         let is_in_lanes = points == Points::Middle && self.system.lanes.midpoint.is_some();
         let kernel = [&p0[..], &self.in_form(&matrix, diagonals)].concat();
-        let kernel = self.shortened(&kernel);
+        let kernel = self.shortened(&kernel)?;
         let line = self.members_code(&kernel, &TAKEN_AT_MIDPOINT, is_in_lanes);
         let matrix = self.matrix_in_form(&line.outputs[self.n..], diagonals);
         let [value] = self.parts(&line.outputs[..self.n], [Shape::Vector]);
         let step_kernel = framed(self, &line, quote!(StepKernel { p0: #value, matrix: #matrix }));
 
-        let both = self.shortened(&[p0, p1].concat());
+        let both = self.shortened(&[p0, p1].concat())?;
         let line = self.members_code(&both, &TAKEN_AT_MIDPOINT, is_in_lanes);
         let [p0, p1] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
         let momenta = framed(self, &line, quote!(Momenta { p0: #p0, p1: #p1 }));
@@ -70,13 +70,13 @@ impl Code<'_> {
         let outputs = MidpointOutputs { kernel: &kernel, momenta: &both, diagonals };
         let in_lanes = is_in_lanes.then(|| self.midpoint_in_lanes(&outputs)).flatten();
         let (explicit, explicit_in_lanes) =
-            newton.is_explicit.then(|| self.explicit(&parts, diagonals)).unzip();
+            newton.is_explicit.then(|| self.explicit(&parts, diagonals)).transpose()?.unzip();
         let memory = match () {
             () if newton.is_explicit => Memory::Explicit,
             () if newton.constant || self.n >= KEPT_FROM => Memory::Matrix,
             () => Memory::Velocities,
         };
-        Kernel {
+        Ok(Kernel {
             step_kernel,
             momenta,
             diagonals,
@@ -85,7 +85,7 @@ impl Code<'_> {
             explicit,
             explicit_in_lanes: explicit_in_lanes.flatten(),
             in_lanes,
-        }
+        })
     }
 
     /// The code of a matrix, given column by column, in the form that its diagonals allow.
@@ -93,11 +93,12 @@ impl Code<'_> {
         &mut self,
         matrix: &[Node],
         diagonals: Option<usize>,
-    ) -> (StraightLine, TokenStream) {
+    ) -> Written<(StraightLine, TokenStream)> {
         let entries = self.in_form(matrix, diagonals);
-        let line = self.code_at_node(&entries, &[]);
+        let entries = self.shortened(&entries)?;
+        let line = self.code_as_it_stands(self.system.home(), &entries, &[]);
         let matrix = self.matrix_in_form(&line.outputs, diagonals);
-        (line, matrix)
+        Ok((line, matrix))
     }
 
     /// The entries of a matrix, given column by column, that its form keeps: of a band row by row.

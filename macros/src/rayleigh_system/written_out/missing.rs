@@ -48,12 +48,11 @@ impl Code<'_> {
                 let index = Literal::usize_unsuffixed(i);
                 functions.push((quote!(Force { index: #index }), root));
             }
-            self.home = home;
-            self.places_of(&functions)
+            self.places_of(home, &functions)
         })
     }
 
-    fn places_of(&mut self, functions: &[(TokenStream, Node)]) -> Option<TokenStream> {
+    fn places_of(&mut self, home: Home, functions: &[(TokenStream, Node)]) -> Option<TokenStream> {
         let (mut uses_coordinates, mut uses_velocities) = (false, false);
         let mut arms = Vec::new();
         for (function, root) in functions {
@@ -61,7 +60,7 @@ impl Code<'_> {
             if written.is_empty() {
                 continue;
             }
-            let line = self.code(&outputs);
+            let Ok(line) = self.code(home, &outputs) else { continue };
             uses_coordinates |= line.uses_coordinates;
             uses_velocities |= line.uses_velocities;
             let mut values = line.outputs.iter();

@@ -11,13 +11,14 @@ impl Code<'_> {
         lagrangian: Node,
         rayleigh: Option<Node>,
         force: Option<&[Node]>,
-    ) -> Option<TokenStream> {
-        (!self.system.parameters.is_empty()).then(|| {
-            let of_lagrangian = self.by_parameters(Part::Lagrangian, lagrangian);
-            let of_rayleigh = rayleigh.map(|root| self.by_parameters(Part::Rayleigh, root));
-            let of_force = force.map(|components| self.force_by_parameters(components));
-            quote!(#of_lagrangian #of_rayleigh #of_force)
-        })
+    ) -> Written<Option<TokenStream>> {
+        if self.system.parameters.is_empty() {
+            return Ok(None);
+        }
+        let of_lagrangian = self.by_parameters(Part::Lagrangian, lagrangian)?;
+        let of_rayleigh = rayleigh.map(|root| self.by_parameters(Part::Rayleigh, root)).transpose()?;
+        let of_force = force.map(|components| self.force_by_parameters(components)).transpose()?;
+        Ok(Some(quote!(#of_lagrangian #of_rayleigh #of_force)))
     }
 
     /// The functions of `SecondOrder`, if they are asked for.
@@ -26,17 +27,18 @@ impl Code<'_> {
         lagrangian: Node,
         rayleigh: Option<Node>,
         force: Option<&[Node]>,
-    ) -> Option<TokenStream> {
-        self.system.second.then(|| {
-            let of_lagrangian = self.along_vectors(Part::Lagrangian, lagrangian);
-            let of_rayleigh = rayleigh.map(|root| self.along_vectors(Part::Rayleigh, root));
-            let of_force = force.map(|components| self.force_along(components));
-            quote!(#of_lagrangian #of_rayleigh #of_force)
-        })
+    ) -> Written<Option<TokenStream>> {
+        if !self.system.second {
+            return Ok(None);
+        }
+        let of_lagrangian = self.along_vectors(Part::Lagrangian, lagrangian)?;
+        let of_rayleigh = rayleigh.map(|root| self.along_vectors(Part::Rayleigh, root)).transpose()?;
+        let of_force = force.map(|components| self.force_along(components)).transpose()?;
+        Ok(Some(quote!(#of_lagrangian #of_rayleigh #of_force)))
     }
 
     /// `lagrangian_by_parameters`, `rayleigh_by_parameters`
-    fn by_parameters(&mut self, part: Part, root: Node) -> TokenStream {
+    fn by_parameters(&mut self, part: Part, root: Node) -> Written<TokenStream> {
         let scalar = &self.system.scalar;
         let (n, count) = (self.system.degrees.times(1), self.system.parameters.len());
         let p = self.system.parameter_count();
@@ -44,22 +46,22 @@ impl Code<'_> {
         let of = self.derivation.hessian(&mut self.graph, root, "");
         let outputs: Vec<Node> =
             [false, true].iter().flat_map(|&by| self.mixed_with_parameters(&of, by)).collect();
-        let line = self.code(&outputs);
+        let line = self.code(self.system.home(), &outputs)?;
         let (by_q, by_v) = line.outputs.split_at(self.n * count);
         let [d1, d2] = [by_q, by_v].map(|entries| matrix(entries, self.n));
         let (q, v, statements) =
             (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
-        quote! {
+        Ok(quote! {
             #[inline]
             fn #function(&self, #q: &Vector, #v: &Vector) -> GradientBy<#scalar, #n, #p> {
                 #statements
                 GradientBy { d1: #d1, d2: #d2 }
             }
-        }
+        })
     }
 
     /// `force_by_parameters`
-    fn force_by_parameters(&mut self, components: &[Node]) -> TokenStream {
+    fn force_by_parameters(&mut self, components: &[Node]) -> Written<TokenStream> {
         let scalar = &self.system.scalar;
         let (n, p) = (self.system.degrees.times(1), self.system.parameter_count());
         let rows = self.rows(components);
@@ -70,17 +72,17 @@ impl Code<'_> {
                 outputs.push(self.or_zero(row.get(&parameter).copied()));
             }
         }
-        let line = self.code(&outputs);
+        let line = self.code(self.system.home(), &outputs)?;
         let matrix = matrix(&line.outputs, self.n);
         let (q, v, statements) =
             (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
-        quote! {
+        Ok(quote! {
             #[inline]
             fn force_by_parameters(&self, #q: &Vector, #v: &Vector) -> SMatrix<#scalar, #n, #p> {
                 #statements
                 #matrix
             }
-        }
+        })
     }
 
     /// ∂²f/∂q∂θ or ∂²f/∂v∂θ, column by column.
@@ -99,7 +101,7 @@ impl Code<'_> {
     }
 
     /// `lagrangian_along`, `rayleigh_along`: the Hessian of a·∂f/∂q + b·∂f/∂v.
-    fn along_vectors(&mut self, part: Part, root: Node) -> TokenStream {
+    fn along_vectors(&mut self, part: Part, root: Node) -> Written<TokenStream> {
         let scalar = &self.system.scalar;
         let (n, m) = (self.system.degrees.times(1), self.system.inputs());
         let function = format_ident!("{}_along", part.name());
@@ -118,12 +120,12 @@ impl Code<'_> {
         let of = self.derivation.hessian(&mut self.graph, sum, "");
         let outputs =
             [self.block(&of, false, false), self.block(&of, false, true), self.block(&of, true, true)];
-        let line = self.code_taking(&outputs.concat(), &["a", "b"]);
+        let line = self.code_taking(self.system.home(), &outputs.concat(), &["a", "b"])?;
         let [d11, d12, d22] = self.parts(&line.outputs, [Shape::Matrix, Shape::Matrix, Shape::Matrix]);
         let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
         let (a, b, statements) =
             (parameter("a", line.uses("a")), parameter("b", line.uses("b")), &line.statements);
-        quote! {
+        Ok(quote! {
             #[inline]
             fn #function(
                 &self,
@@ -135,11 +137,11 @@ impl Code<'_> {
                 #statements
                 Hessian { d11: #d11, d12: #d12, d22: #d22, ..Hessian::zero() }
             }
-        }
+        })
     }
 
     /// `force_along`: the Hessian of a covector's product with f.
-    fn force_along(&mut self, components: &[Node]) -> TokenStream {
+    fn force_along(&mut self, components: &[Node]) -> Written<TokenStream> {
         let scalar = &self.system.scalar;
         let (n, m) = (self.system.degrees.times(1), self.system.inputs());
         let mut sum = None;
@@ -163,7 +165,7 @@ impl Code<'_> {
                 outputs.push(self.or_zero(entry));
             }
         }
-        let line = self.code_taking(&outputs, &["vector"]);
+        let line = self.code_taking(self.system.home(), &outputs, &["vector"])?;
         let squares = 3 * self.n * self.n;
         let [d11, d12, d22] =
             self.parts(&line.outputs[..squares], [Shape::Matrix, Shape::Matrix, Shape::Matrix]);
@@ -180,13 +182,13 @@ impl Code<'_> {
         let by_input = by_input.unwrap_or_else(|| quote!(..Hessian::zero()));
         let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
         let (vector, statements) = (parameter("vector", line.uses("vector")), &line.statements);
-        quote! {
+        Ok(quote! {
             #[inline]
             fn force_along(&self, #q: &Vector, #v: &Vector, #vector: &Vector) -> Hessian<#scalar, #n, #m> {
                 #statements
                 Hessian { d11: #d11, d12: #d12, d22: #d22, #by_input }
             }
-        }
+        })
     }
 
     /// `a[0]`

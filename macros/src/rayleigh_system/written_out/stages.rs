@@ -17,9 +17,18 @@ use super::in_lanes::tuple;
 use super::*;
 
 /// `stages`, and the functions of several members at once where they are asked for.
+#[derive(Default)]
 pub(super) struct StagesWritten {
-    pub(super) function: TokenStream,
+    pub(super) function: Option<TokenStream>,
     pub(super) in_lanes: Option<TokenStream>,
+    /// Why they are not written, if they were to be.
+    pub(super) lacks: Option<&'static str>,
+}
+
+impl StagesWritten {
+    fn lacking(why: &'static str) -> Self {
+        Self { lacks: Some(why), ..Self::default() }
+    }
 }
 
 /// The parameter by which code in sweeps keeps angles and reciprocals from one sweep to the next.
@@ -66,13 +75,13 @@ pub const CONDITIONAL: &str = "reads all fields before the run, and a body reads
 const MAX_PRODUCTS: usize = 4000;
 
 impl Code<'_> {
-    /// `stages`, or what is in the way.
+    /// `stages`, or the reason why they are left to the runtime.
     pub(super) fn stages(
         &mut self,
         lagrangian: Node,
         rayleigh: Option<Node>,
         force: Option<&[Node]>,
-    ) -> Result<StagesWritten, &'static str> {
+    ) -> Written<StagesWritten> {
         let of_lagrangian = self.derivation.hessian(&mut self.graph, lagrangian, "l");
         let rates = self.rates(&of_lagrangian.gradient, rayleigh, force);
         let momenta = self.covector(&of_lagrangian.gradient, true);
@@ -88,29 +97,29 @@ impl Code<'_> {
                 residual
             })
             .collect();
-        let corrections = self.solved(&of_lagrangian, &residuals).ok_or(NOT_FACTORED)?;
+        let Some(corrections) = self.solved(&of_lagrangian, &residuals) else {
+            return Ok(StagesWritten::lacking(NOT_FACTORED));
+        };
 
         let outputs = [rates, residuals, corrections].concat();
-        if self.graph.is_full() {
-            return Err(NOT_FACTORED);
-        }
+        self.complete()?;
         let outputs = self.graph.with_fewer_angles(&outputs);
-        let outputs = self.rounded(&outputs);
+        let outputs = self.rounded(&outputs)?;
         // Lanes take both ways of a selection.
         if self.graph.is_conditional(outputs.iter().copied()) {
-            return Err(CONDITIONAL);
+            return Ok(StagesWritten::lacking(CONDITIONAL));
         }
         let reciprocals = self.of_corrections_alone(&outputs);
         let anchored = Anchored(&reciprocals);
         let in_lanes =
             self.system.lanes.gauss.as_ref().map(|_| self.stages_in_lanes(&outputs, &late, anchored));
         let mut taken = vec!["q", "v", "p", "rate", "momenta", "anchors", "angles", "reciprocals"];
-        if self.home == Home::View {
+        if self.system.home() == Home::View {
             taken.extend(["u", "t", "elapsed"]);
         }
         let (graph, scalar) = (&self.graph, &self.system.scalar);
         let mut line = emit::in_lanes(graph, scalar, &outputs, &taken, self.is_portable, &late, anchored);
-        if self.home == Home::View {
+        if self.system.home() == Home::View {
             let seen = |tokens: TokenStream| view::seen_from_view(tokens, &self.system.name);
             let input = line.uses_inputs.then(|| quote!(let u = self.u;));
             let time = line.uses("t").then(|| quote!(let t = *elapsed + self.t;));
@@ -156,7 +165,7 @@ impl Code<'_> {
                 Stages { rate, residual: [#(#residuals),*], correction: [#(#corrections),*] }
             }
         };
-        Ok(StagesWritten { function, in_lanes })
+        Ok(StagesWritten { function: Some(function), in_lanes, lacks: None })
     }
 
     /// G = ∂L/∂q − ∂R/∂v + f.
