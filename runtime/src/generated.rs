@@ -31,9 +31,9 @@ pub use crate::system::{
     SliceMethods, Stages, Structure, TimeScale, VectorField, Written,
 };
 
-/// Implements [`Described`](crate::system::Described), and makes a macro of the system's name, which hands `input` and `time`, as far as
-/// the system takes them, to another macro: how many arguments a function of C has is text, which no trait can
-/// give.
+/// Implements [`Described`](crate::system::Described), and makes a macro of the system's name, which hands
+/// `input` and `time`, as far as the system takes them, to another macro: how many arguments a function of C
+/// has is text, which no trait can give.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! described {
