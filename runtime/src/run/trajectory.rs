@@ -71,7 +71,7 @@ where
 /// // A of the step that comes next.
 /// let state = *run.state();
 /// let (_, next) = run.at_present(|rocket| rocket.by(Gauss::<3>, 0.5).linearized_step(&state))?;
-/// assert!((next.a.q_by_p[0] / (0.5 / 20.0) - 1.0).abs() < 1e-9);
+/// assert!((next.q_by_p[0] / (0.5 / 20.0) - 1.0).abs() < 1e-9);
 /// # Ok::<(), dalembert::StepError>(())
 /// ```
 pub struct Trajectory<'a, L, M, const N: usize>
