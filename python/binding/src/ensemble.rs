@@ -175,6 +175,12 @@ impl Read {
     }
 }
 
+/// What a run of an ensemble leaves: the states kept, or the files written.
+enum Results {
+    Arrays(Kept),
+    Files(Written),
+}
+
 /// Runs the ensemble.
 ///
 /// # Errors
@@ -224,9 +230,11 @@ pub fn run<'py>(py: Python<'py>, model: &dyn Model, given: Given<'_, 'py>) -> Py
     let control = Control::default();
     let parts = given.parts.as_ref();
     let work = || match parts {
-        Some((folder, size)) => model.written(&asked, &control, folder, *size).map(Err),
-        None if !given.events.is_empty() => watched::kept(model, &asked, given.events, &control).map(Ok),
-        None => model.kept(&asked, &control).map(Ok),
+        Some((folder, size)) => model.written(&asked, &control, folder, *size).map(Results::Files),
+        None if !given.events.is_empty() => {
+            watched::kept(model, &asked, given.events, &control).map(Results::Arrays)
+        }
+        None => model.kept(&asked, &control).map(Results::Arrays),
     };
     let look = |py: Python<'_>| {
         py.check_signals()?;
@@ -241,10 +249,10 @@ pub fn run<'py>(py: Python<'py>, model: &dyn Model, given: Given<'_, 'py>) -> Py
         Stepping::ToError(_) => None,
     };
     match result.map_err(|reason| of_no_result(py, reason, rule, kind))? {
-        Ok(kept) => {
+        Results::Arrays(kept) => {
             Ok(Py::new(py, ends(py, kept, members, n, given.every.is_some())?)?.into_bound(py).into_any())
         }
-        Err(Written { counts, paths }) => {
+        Results::Files(Written { counts, paths }) => {
             let parts::Written { written, found, failed, failed_before, spared } = counts;
             let parts = Parts { written, found, failed, failed_before, spared, paths };
             Ok(Py::new(py, parts)?.into_bound(py).into_any())
