@@ -29,7 +29,7 @@ const DEEPEST: u32 = 64;
 /// Straight-line code: statements, then one expression for each output.
 pub struct StraightLine {
     pub statements: TokenStream,
-    /// Statements that read the `late` parameters of [`in_lanes`]; none in other code.
+    /// Statements that read the late parameters of [`Writing::lanes`]; none in other code.
     pub later: TokenStream,
     pub outputs: Vec<TokenStream>,
     /// Whether q occurs.
@@ -66,35 +66,46 @@ impl StraightLine {
     }
 }
 
-/// The code for `outputs`. q, v and u are read as `q[0]`, `v[0]`, `u[0]`; the names `taken` are not given to
-/// anything.
-///
-/// `is_portable`: elementary functions are the runtime's.
-pub fn straight_line(
-    graph: &Graph,
-    scalar: &Ident,
-    outputs: &[Node],
-    taken: &[&str],
-    is_portable: bool,
-) -> StraightLine {
-    written(graph, scalar, outputs, taken, is_portable, Kind::Numbers)
+/// A graph to be written as text: in whose numbers, and beside which names.
+#[derive(Clone, Copy)]
+pub struct Writing<'t> {
+    pub graph: &'t Graph,
+    pub scalar: &'t Ident,
+    /// Names that are not given to anything.
+    pub taken: &'t [&'t str],
+    /// Whether elementary functions are the runtime's.
+    pub is_portable: bool,
 }
 
-/// [`straight_line`] with the functions that [`on_members`] has, so that both compute the same numbers.
-pub fn as_on_members(
-    graph: &Graph,
-    scalar: &Ident,
-    outputs: &[Node],
-    taken: &[&str],
-    is_portable: bool,
-) -> StraightLine {
-    written(graph, scalar, outputs, taken, is_portable, Kind::NumbersAsMembers)
-}
+impl Writing<'_> {
+    /// The code for `outputs`. q, v and u are read as `q[0]`, `v[0]`, `u[0]`.
+    pub fn numbers(self, outputs: &[Node]) -> StraightLine {
+        written(self, outputs, Kind::Numbers)
+    }
 
-/// The code for `outputs` over `Real<D>`, q, v, u and the time being such numbers; fields and constants are
-/// lifted.
-pub fn over_duals(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&str]) -> StraightLine {
-    written(graph, scalar, outputs, taken, false, Kind::Duals)
+    /// [`numbers`](Self::numbers) with the functions that [`members`](Self::members) has, so that both
+    /// compute the same numbers.
+    pub fn numbers_as_members(self, outputs: &[Node]) -> StraightLine {
+        written(self, outputs, Kind::NumbersAsMembers)
+    }
+
+    /// The code for `outputs` over `Real<D>`, q, v, u and the time being such numbers; fields and constants
+    /// are lifted.
+    pub fn duals(self, outputs: &[Node]) -> StraightLine {
+        written(self, outputs, Kind::Duals)
+    }
+
+    /// The code for `outputs` where q, v and the time are lanes. The parameters `late` are lanes as well, and
+    /// known only after the statements that do not need them.
+    pub fn lanes(self, outputs: &[Node], late: &[Node], anchored: Anchored<'_>) -> StraightLine {
+        written(self, outputs, Kind::Lanes(late, anchored))
+    }
+
+    /// The code for `outputs` where q, v and what is made of fields alone are those of several members at
+    /// once; and what is `handed` over, which is not computed again.
+    pub fn members(self, outputs: &[Node], handed: &[Node], anchored: Option<Anchored<'_>>) -> StraightLine {
+        written(self, outputs, Kind::Members(handed, anchored))
+    }
 }
 
 /// Code of sweeps: sine and cosine are `angles[0].sin_cos(q[0])`, and these reciprocals
@@ -113,34 +124,6 @@ enum Kind<'l> {
     /// Numbers of several members, some of them handed over.
     Members(&'l [Node], Option<Anchored<'l>>),
     Duals,
-}
-
-/// The code for `outputs` where q, v and the time are lanes. The parameters `late` are lanes as well, and
-/// known only after the statements that do not need them.
-pub fn in_lanes(
-    graph: &Graph,
-    scalar: &Ident,
-    outputs: &[Node],
-    taken: &[&str],
-    is_portable: bool,
-    late: &[Node],
-    anchored: Anchored<'_>,
-) -> StraightLine {
-    written(graph, scalar, outputs, taken, is_portable, Kind::Lanes(late, anchored))
-}
-
-/// The code for `outputs` where q, v and what is made of fields alone are those of several members at once;
-/// and what is `handed` over, which is not computed again.
-pub fn on_members(
-    graph: &Graph,
-    scalar: &Ident,
-    outputs: &[Node],
-    taken: &[&str],
-    is_portable: bool,
-    handed: &[Node],
-    anchored: Option<Anchored<'_>>,
-) -> StraightLine {
-    written(graph, scalar, outputs, taken, is_portable, Kind::Members(handed, anchored))
 }
 
 /// Which expressions neither change with q, v and t nor hold a parameter of the function, whose names are
@@ -167,14 +150,8 @@ pub fn before_the_run(graph: &Graph, nodes: &[Node], taken: &[&str]) -> (Vec<boo
     (is_constant, reads)
 }
 
-fn written(
-    graph: &Graph,
-    scalar: &Ident,
-    outputs: &[Node],
-    taken: &[&str],
-    is_portable: bool,
-    kind: Kind<'_>,
-) -> StraightLine {
+fn written(writing: Writing<'_>, outputs: &[Node], kind: Kind<'_>) -> StraightLine {
+    let Writing { graph, scalar, taken, is_portable } = writing;
     let is_dual = matches!(kind, Kind::Duals);
     let (late, lanes) = match kind {
         Kind::Lanes(late, _) => (Some(late), number_of_stages(graph)),

@@ -21,7 +21,7 @@ use quote::{format_ident, quote};
 use syn::Ident;
 
 use super::differentiate::{Derivatives, Differentiation, Gradient};
-use super::emit::{StraightLine, inlined, straight_line};
+use super::emit::{StraightLine, Writing, inlined};
 use super::graph::{Graph, MOST_OPERATIONS, Node, Operation, Taken};
 use super::lower::{Length, Load, Lowered, Refusal};
 use super::model::{Degrees, Home, Part, System};

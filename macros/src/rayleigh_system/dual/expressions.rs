@@ -3,8 +3,9 @@
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
+use syn::Ident;
 
-use super::super::emit::over_duals;
+use super::super::emit::{StraightLine, Writing};
 use super::super::graph::Node;
 use super::super::lower::Lowered;
 use super::super::model::{Part, RayleighArguments, System};
@@ -44,11 +45,16 @@ pub fn twins(system: &System<'_>, lowered: &Lowered) -> TokenStream {
     }
 }
 
+fn over_duals(lowered: &Lowered, scalar: &Ident, outputs: &[Node]) -> StraightLine {
+    let taken = &["q", "v", "u", "t", "D"];
+    Writing { graph: &lowered.graph, scalar, taken, is_portable: false }.duals(outputs)
+}
+
 /// σ over `Real<D>`.
 fn time_scale(system: &System<'_>, lowered: &Lowered, root: Node) -> TokenStream {
     let scalar = &system.scalar;
     let n = system.degrees.times(1);
-    let line = over_duals(&lowered.graph, scalar, &[root], &["q", "v", "u", "t", "D"]);
+    let line = over_duals(lowered, scalar, &[root]);
     let (statements, value) = (&line.statements, &line.outputs);
     quote! {
         /// `time_scale` over plain and dual numbers.
@@ -69,7 +75,7 @@ fn over(
 ) -> TokenStream {
     let scalar = &system.scalar;
     let n = system.degrees.times(1);
-    let line = over_duals(&lowered.graph, scalar, outputs, &["q", "v", "u", "t", "D"]);
+    let line = over_duals(lowered, scalar, outputs);
     let q = (point == RayleighArguments::ConfigurationAndVelocity).then(|| quote!(q: [Real<D>; #n],));
     let input = system.input.as_ref().filter(|_| part == Part::Force).map(|input| input.times(1));
     let input = input.map(|m| quote!(u: [Real<D>; #m],));

@@ -1,8 +1,7 @@
 //! Fields, entries and ranges of them.
 
-use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
-use syn::{BinOp, Expr, ExprRange, Member, RangeLimits};
+use syn::{Expr, ExprRange, Member, RangeLimits};
 
 use super::super::diagnostics::span_of;
 use super::integer::Integer;
@@ -48,21 +47,8 @@ impl Lowering<'_> {
                 Ok(Value::Written(array.entry(index)))
             }
             (Value::Written(array), Value::Written(index)) => {
-                let both = Written::Binary(
-                    BinOp::Eq(Default::default()),
-                    Box::new(array.clone()),
-                    Box::new(index.clone()),
-                );
-                // One text within the arms of both.
-                let Written::Leaf(mut leaf) = both.derived(true, |_| TokenStream::new()) else {
-                    return refuse(at, "this index is not known at compile time");
-                };
-                let Written::Leaf(array) = array.derived(false, |array| array) else {
-                    return refuse(at, "this index is not known at compile time");
-                };
-                let (array, index) = (array.tokens, self.text(at, &index)?.tokens);
-                leaf.tokens = quote!(#array[#index]);
-                Ok(Value::Written(Written::Leaf(leaf)))
+                let text = self.text(at, &index)?.tokens;
+                Ok(Value::Written(array.entry_at(&index, &text)))
             }
             (Value::Chosen(base), index) => {
                 self.distribute(at, &base, |this, base| this.entry(at, base, index.clone()))

@@ -8,6 +8,7 @@ use super::super::differentiate::extremum;
 use super::super::graph::{Comparison, Function, Operation, PairFunction, Predicate};
 use super::super::syntax::{METHODS, ROUNDING, jumps};
 use super::integer::IntegerType;
+use super::operator::Operands;
 use super::value::{Truth, Value};
 use super::{Lowering, Node, Refusal, Result, refuse};
 
@@ -97,10 +98,12 @@ impl Lowering<'_> {
     }
 
     /// `(low..high).contains(&value)`
-    fn range_contains(&mut self, range: &ExprRange, value: &Expr) -> Result<Value> {
-        let start = range.start.as_deref().map(|start| self.expression(start)).transpose()?;
-        let end = range.end.as_deref().map(|end| self.expression(end)).transpose()?;
-        let value_of = self.expression(value)?;
+    fn range_contains<'r>(&mut self, range: &'r ExprRange, value: &'r Expr) -> Result<Value> {
+        let mut read = |bound: &'r Option<Box<Expr>>| {
+            bound.as_deref().map(|bound| Ok((bound, self.expression(bound)?))).transpose()
+        };
+        let (start, end) = (read(&range.start)?, read(&range.end)?);
+        let inner = self.expression(value)?;
         let is_closed = matches!(range.limits, RangeLimits::Closed(_));
         let mut holds = Truth::Known(true);
         let span = span_of(range);
@@ -112,9 +115,10 @@ impl Lowering<'_> {
         let lower = syn::BinOp::Le(syn::Token![<=](span));
         for (bound, operator, is_lower) in [(start, lower, true), (end, upper, false)] {
             let Some(bound) = bound else { continue };
-            let (left, right) = if is_lower { (bound, value_of.clone()) } else { (value_of.clone(), bound) };
-            let at: syn::ExprBinary = syn::parse_quote!(#value #operator #value);
-            let compared = self.operate(&at, &operator, left, right)?;
+            let value = (value, inner.clone());
+            let ((at_left, left), (at_right, right)) = if is_lower { (bound, value) } else { (value, bound) };
+            let at = Operands { whole: range, left: at_left, right: at_right };
+            let compared = self.operate(at, &operator, left, right)?;
             let compared = self.truth(range, compared)?;
             holds = holds.and(&mut self.graph, compared);
         }

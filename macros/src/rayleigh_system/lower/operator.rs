@@ -1,7 +1,7 @@
 //! Operators.
 
 use proc_macro2::Span;
-use quote::quote;
+use quote::{ToTokens, quote};
 use syn::{BinOp, Expr, ExprBinary, ExprLit, ExprUnary, Lit, UnOp};
 
 use super::super::diagnostics::span_of;
@@ -11,6 +11,20 @@ use super::integer::Integer;
 use super::value::{Truth, Value};
 use super::written::Written;
 use super::{Lowering, Node, Result, refuse};
+
+/// Where an operation and its two sides are written, as errors tell.
+#[derive(Clone, Copy)]
+pub struct Operands<'a> {
+    pub whole: &'a dyn ToTokens,
+    pub left: &'a dyn ToTokens,
+    pub right: &'a dyn ToTokens,
+}
+
+impl<'a> Operands<'a> {
+    fn of(binary: &'a ExprBinary) -> Self {
+        Self { whole: binary, left: &binary.left, right: &binary.right }
+    }
+}
 
 impl Lowering<'_> {
     pub fn unary(&mut self, unary: &ExprUnary) -> Result<Value> {
@@ -96,11 +110,11 @@ impl Lowering<'_> {
             let right_value = self.expression(right)?;
             let place = self.place(left)?;
             let left_value = self.read(left, &place)?;
-            let value = self.operate(binary, &operator, left_value, right_value)?;
+            let value = self.operate(Operands::of(binary), &operator, left_value, right_value)?;
             return self.write(left, &place, value);
         }
         let (left, right) = (self.expression(left)?, self.expression(right)?);
-        self.operate(binary, op, left, right)
+        self.operate(Operands::of(binary), op, left, right)
     }
 
     /// `left && right` or `left || right`, where numbers decide whether the right side is run.
@@ -124,9 +138,15 @@ impl Lowering<'_> {
     }
 
     /// `left operator right`.
-    pub fn operate(&mut self, at: &ExprBinary, operator: &BinOp, left: Value, right: Value) -> Result<Value> {
+    pub fn operate(
+        &mut self,
+        at: Operands<'_>,
+        operator: &BinOp,
+        left: Value,
+        right: Value,
+    ) -> Result<Value> {
         match (left, right) {
-            (Value::Integer(a), Value::Integer(b)) => self.integers(at, operator, a, b),
+            (Value::Integer(a), Value::Integer(b)) => self.integers(&at.whole, operator, a, b),
             (Value::Truth(a), Value::Truth(b)) => self.truths(at, operator, a, b),
             (Value::Truth(a), Value::Written(b)) => {
                 let b = self.written_truth(&at.right, &b)?;
@@ -149,10 +169,10 @@ impl Lowering<'_> {
                 Ok(Value::Written(Written::Binary(*operator, a, Box::new(b))))
             }
             (Value::Chosen(a), b @ (Value::Integer(_) | Value::Written(_) | Value::Chosen(_))) => {
-                self.distribute(at, &a, |this, a| this.operate(at, operator, a, b.clone()))
+                self.distribute(&at.whole, &a, |this, a| this.operate(at, operator, a, b.clone()))
             }
             (a @ (Value::Integer(_) | Value::Written(_)), Value::Chosen(b)) => {
-                self.distribute(at, &b, |this, b| this.operate(at, operator, a.clone(), b))
+                self.distribute(&at.whole, &b, |this, b| this.operate(at, operator, a.clone(), b))
             }
             (left, right) if matches!(operator, BinOp::Rem(_)) => self.remainder(operator, &left, &right),
             (left, right) => {
@@ -184,14 +204,14 @@ impl Lowering<'_> {
     }
 
     /// An operator of bools that evaluates both sides.
-    fn truths(&mut self, at: &ExprBinary, operator: &BinOp, a: Truth, b: Truth) -> Result<Value> {
+    fn truths(&mut self, at: Operands<'_>, operator: &BinOp, a: Truth, b: Truth) -> Result<Value> {
         let graph = &mut self.graph;
         let truth = match operator {
             BinOp::BitAnd(_) => a.and(graph, b),
             BinOp::BitOr(_) => a.or(graph, b),
             BinOp::BitXor(_) | BinOp::Ne(_) => a.differs(graph, b),
             BinOp::Eq(_) => a.differs(graph, b).not(graph),
-            _ => return refuse(at, "combine conditions with `&&`, `||`, `!`, `==` and `!=`"),
+            _ => return refuse(&at.whole, "combine conditions with `&&`, `||`, `!`, `==` and `!=`"),
         };
         Ok(Value::Truth(truth))
     }

@@ -1,11 +1,12 @@
 //! Methods of arrays and iterators.
 
 use proc_macro2::Ident;
-use syn::{BinOp, Expr, ExprBinary, ExprMethodCall, Type, parse_quote};
+use syn::{BinOp, Expr, ExprMethodCall, Type, parse_quote};
 
 use super::super::graph::Operation;
 use super::super::syntax::is_self;
 use super::integer::IntegerType;
+use super::operator::Operands;
 use super::value::{Truth, Value};
 use super::{Lowering, Node, Result, refuse};
 
@@ -184,12 +185,12 @@ impl Lowering<'_> {
             && entries.iter().all(|entry| !matches!(entry, Value::Real(_)));
         if are_integers || are_written || ty.is_some() {
             let operator: BinOp = if is_sum { parse_quote!(+) } else { parse_quote!(*) };
-            let at: ExprBinary = parse_quote!(#method #operator #method);
+            let at = Operands { whole: method, left: method, right: method };
             let mut total = None;
             for entry in entries {
                 total = Some(match total {
                     None => entry,
-                    Some(total) => self.operate(&at, &operator, total, entry)?,
+                    Some(total) => self.operate(at, &operator, total, entry)?,
                 });
             }
             return match total {

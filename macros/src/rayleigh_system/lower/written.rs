@@ -83,6 +83,13 @@ impl Written {
         self.derived(false, |base| indexed(&base, index))
     }
 
+    /// `array[index]`, with the index written as `text`, within the arms of both.
+    pub fn entry_at(&self, index: &Self, text: &TokenStream) -> Self {
+        let Leaf { tokens, arms, .. } = self.as_leaf();
+        let arms = [arms, index.as_leaf().arms].concat();
+        Self::Leaf(Leaf { tokens: quote!(#tokens[#text]), arms, may_panic: true, is_bound: false })
+    }
+
     /// `tuple.index`.
     pub fn member(&self, index: usize) -> Self {
         let index = Index::from(index);

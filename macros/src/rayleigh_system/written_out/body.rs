@@ -37,9 +37,14 @@ impl Code<'_> {
             taken.extend(["u", "t", "t_end"]);
         }
         taken.extend(parameters);
-        let line = straight_line(&self.graph, &self.system.scalar, outputs, &taken, self.is_portable);
+        let line = self.writing(&taken).numbers(outputs);
         self.calls_elementary |= line.calls_elementary;
         self.seen(home, line)
+    }
+
+    /// The graph to be written beside the names `taken`.
+    pub(super) fn writing<'t>(&'t self, taken: &'t [&'t str]) -> Writing<'t> {
+        Writing { graph: &self.graph, scalar: &self.system.scalar, taken, is_portable: self.is_portable }
     }
 
     /// The line as it stands in a function of `home`.

@@ -10,7 +10,7 @@ mod stages;
 
 use quote::ToTokens;
 
-use super::super::emit::{Anchored, Field, as_on_members, number_of_members, on_members, straight_line};
+use super::super::emit::{Anchored, Field, number_of_members};
 use super::super::syntax::with_words;
 use super::*;
 pub(super) use explicit::{ExplicitOutputs, TAKEN};
@@ -114,8 +114,7 @@ impl Code<'_> {
         anchored: Option<Anchored<'_>>,
     ) -> StraightLine {
         let taken = self.taken_with(taken);
-        let (graph, scalar) = (&self.graph, &self.system.scalar);
-        let line = on_members(graph, scalar, outputs, &taken, self.is_portable, handed, anchored);
+        let line = self.writing(&taken).members(outputs, handed, anchored);
         let mut line = self.seen(self.system.home(), line);
         line.fields.sort_by_key(|field| (field.is_truth, field.node));
         self.calls_elementary |= line.calls_elementary;
@@ -140,7 +139,7 @@ impl Code<'_> {
             return self.code_as_it_stands(self.system.home(), outputs, &[]);
         }
         let taken = self.taken_with(taken);
-        let line = as_on_members(&self.graph, &self.system.scalar, outputs, &taken, self.is_portable);
+        let line = self.writing(&taken).numbers_as_members(outputs);
         self.calls_elementary |= line.calls_elementary;
         self.seen(self.system.home(), line)
     }
@@ -151,13 +150,7 @@ impl Code<'_> {
         let (ty, members) = (fields.ty(), &fields.members);
         let (scalar, is_timed) = (self.system.scalar.clone(), self.system.timed.any());
         let mut of_each = |(nodes, group): (&[Node], &str)| {
-            let line = straight_line(
-                &self.graph,
-                &self.system.scalar,
-                nodes,
-                &self.taken_with(&["systems", "system"]),
-                self.is_portable,
-            );
+            let line = self.writing(&self.taken_with(&["systems", "system"])).numbers(nodes);
             self.calls_elementary |= line.calls_elementary;
             let line = self.seen(self.system.home(), line);
             let group = format_ident!("{group}");

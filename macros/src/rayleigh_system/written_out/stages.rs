@@ -12,7 +12,7 @@
 
 use std::collections::BTreeSet;
 
-use super::super::emit::{self, Anchored, inlined_on_lanes, number_of_stages};
+use super::super::emit::{Anchored, inlined_on_lanes, number_of_stages};
 use super::in_lanes::tuple;
 use super::*;
 
@@ -117,8 +117,7 @@ impl Code<'_> {
         if self.system.home() == Home::View {
             taken.extend(["u", "t", "elapsed"]);
         }
-        let (graph, scalar) = (&self.graph, &self.system.scalar);
-        let mut line = emit::in_lanes(graph, scalar, &outputs, &taken, self.is_portable, &late, anchored);
+        let mut line = self.writing(&taken).lanes(&outputs, &late, anchored);
         if self.system.home() == Home::View {
             let seen = |tokens: TokenStream| view::seen_from_view(tokens, &self.system.name);
             let input = line.uses_inputs.then(|| quote!(let u = self.u;));
