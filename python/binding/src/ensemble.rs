@@ -175,7 +175,7 @@ impl Read {
     }
 }
 
-/// What a run of an ensemble leaves: the states kept, or the files written.
+/// The result of an ensemble: the states kept, or the files written.
 enum Results {
     Arrays(Kept),
     Files(Written),
