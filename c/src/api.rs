@@ -108,7 +108,6 @@ macro_rules! c_functions {
                 &[stringify!($prefix), stringify!($rule), <CScalar as $crate::face::FieldType>::BASE],
                 &[C_COORDINATES, C_INPUTS, C_PARAMETERS.len(), <$system as $crate::face::Described<C_COORDINATES>>::TAKES_TIME as usize, size_of::<$system>()],
             );
-            const _: () = assert!(align_of::<CMemory>() <= 8, "the header aligns the memory to 8 bytes");
 
             /// The header that declares these functions.
             pub const HEADER: $crate::Header = $crate::Header {
@@ -118,7 +117,7 @@ macro_rules! c_functions {
                 documentation: <$system as $crate::face::Fields>::DOCUMENTATION,
                 fields: <$system as $crate::face::Fields>::FIELDS,
                 parameters_size: size_of::<$system>(),
-                memory_size: size_of::<CMemory>(),
+                memory_size: size_of::<CMemory>,
                 scalar: <CScalar as $crate::face::FieldType>::BASE,
                 coordinates: C_COORDINATES,
                 inputs: C_INPUTS,

@@ -26,7 +26,7 @@ pub struct Header {
     /// Bytes of the struct of its fields.
     pub parameters_size: usize,
     /// Bytes of the caller's memory.
-    pub memory_size: usize,
+    pub memory_size: fn() -> usize,
     /// `double` or `float`.
     pub scalar: &'static str,
     /// N.
@@ -103,6 +103,7 @@ impl Header {
 
     fn types(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { prefix, scalar, coordinates: n, inputs, memory_size, parameters_size, .. } = *self;
+        let memory_size = memory_size();
         let (upper, rows) = (Upper(prefix), 2 * n);
         comment(f, "", self.documentation)?;
         writeln!(f, "typedef struct {prefix}_parameters {{")?;

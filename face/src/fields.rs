@@ -131,6 +131,11 @@ pub struct Field {
 
 /// A system that knows its fields by name and number: a struct that [`fields!`](crate::fields) declares, for
 /// whoever fills them in.
+#[diagnostic::on_unimplemented(
+    message = "the fields of `{Self}` are not known in other languages",
+    label = "declared outside `parameters!`",
+    note = "declare the struct within `parameters! {{ pub struct {Self} {{ … }} }}`"
+)]
 pub trait Fields: Copy + 'static {
     /// The documentation of the struct, a line each.
     const DOCUMENTATION: &'static [&'static str];

@@ -40,9 +40,10 @@ impl<S: Scalar, const M: usize> Input<S> for [S; M] {
 
 /// A system by a rule: [`By`] of the two.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` has no steps: the system is not discretised by this rule",
-    label = "no step by this rule",
-    note = "the rule is one of those that `#[rayleigh_system(rule = …)]` lists, midpoint if none"
+    message = "`{Self}` has no steps in other languages",
+    label = "no steps of this system by this rule",
+    note = "the rule is one of those that `#[rayleigh_system(rule = …)]` lists, midpoint if none",
+    note = "the struct of the system is declared within `parameters! {{ … }}`"
 )]
 pub trait Interface<const N: usize>: Sized + 'static {
     /// The struct of the system.

@@ -34,6 +34,7 @@ pub unsafe fn init<C: Entered<N>, const N: usize>(
     given: impl FnOnce() -> Result<Given<C, N>, Status>,
     [q, v]: [*const Vector<C, N>; 2],
 ) -> Status {
+    const { assert!(align_of::<Memory<C, N>>() <= 8, "the header aligns the memory to 8 bytes") };
     let begin = || {
         seen(memory)?;
         if layout != C::SIGNATURE || size < size_of::<Memory<C, N>>() {

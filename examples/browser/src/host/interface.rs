@@ -27,7 +27,7 @@ pub fn print() {
         let offsets: Vec<_> =
             fields.iter().map(|field| format!("{}: {}", field.name, field.offset)).collect();
         println!("    {prefix}: {{");
-        println!("        memory: {memory_size},");
+        println!("        memory: {},", memory_size());
         println!("        layout: {layout:#018x}n,");
         println!("        parameters: {{ size: {parameters_size}, offsets: {{ {} }} }},", offsets.join(", "));
         println!("    }},");
