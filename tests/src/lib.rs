@@ -14,6 +14,7 @@ pub mod motions;
 #[cfg(feature = "all-claims")]
 pub mod reference;
 pub mod sections;
+pub mod simpson;
 pub mod systems;
 
 /// What crates.io shows of `dalembert`: its code is run.

@@ -49,13 +49,14 @@ mod num_dual {
 
 use dalembert::derivative::{PhaseMatrix, StepHessian};
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
-use dalembert::rules::{DisplacementRule, Node, Quadrature};
+use dalembert::rules::Quadrature;
 use dalembert::step::Flow;
 use dalembert::step::{DiscreteDriven, DiscreteParameters, DiscreteRayleigh, DiscreteSecondOrder, Segment};
 use dalembert::system::{Parameters, SecondOrder};
 use dalembert::{
     Discrete, Discretise, Gauss, Lagrangian, Midpoint, Rayleigh, State, Trapezoidal, rayleigh_system,
 };
+use dalembert_tests::simpson::Simpson;
 use expanded::CartPole;
 
 const CART: CartPole = CartPole { m: [1.2, 0.4], l: 0.7, g: 9.81, c: [0.3, 0.2] };
@@ -135,18 +136,6 @@ fn a_and_b_are_the_derivatives_of_the_step() {
     check_first(Gauss::<2>);
     check_first(Gauss::<4>);
     check_first(Quadrature(Simpson));
-}
-
-/// A rule of one's own, whose systems have all that the attribute's rules have.
-#[derive(Clone, Copy)]
-struct Simpson;
-
-impl DisplacementRule for Simpson {
-    const NODES: &'static [Node] = &[
-        Node { position: 0.0, weight: 1.0 / 6.0 },
-        Node { position: 0.5, weight: 2.0 / 3.0 },
-        Node { position: 1.0, weight: 1.0 / 6.0 },
-    ];
 }
 
 fn check_second<R: Copy>(rule: R)

@@ -2,12 +2,13 @@
 //! rounding; what a step gives by state, input and parameters; errors, corrections, checkpoints.
 
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::rules::{DisplacementRule, Node, Quadrature, SelfAdjoint};
+use dalembert::rules::Quadrature;
 use dalembert::run::DrivenTrajectory;
 use dalembert::step::Flow;
 use dalembert::{
     Composition, Discretise, Gauss, Midpoint, Splitting, State, StepError, Trapezoidal, rayleigh_system,
 };
+use dalembert_tests::simpson::Simpson;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 
 /// Links with motors: the mass depends on q.
@@ -82,18 +83,6 @@ impl Tide {
         [u[0] * t.sin()]
     }
 }
-
-#[derive(Clone, Copy, Debug)]
-struct Simpson;
-
-impl DisplacementRule for Simpson {
-    const NODES: &'static [Node] = &[
-        Node { position: 0.0, weight: 1.0 / 6.0 },
-        Node { position: 0.5, weight: 2.0 / 3.0 },
-        Node { position: 1.0, weight: 1.0 / 6.0 },
-    ];
-}
-impl SelfAdjoint for Simpson {}
 
 /// The largest distance of a run's states from those of cold steps, in units of the state, and the least
 /// distance from those of cold steps with the input before.

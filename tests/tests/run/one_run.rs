@@ -1,13 +1,14 @@
 //! One run for all methods: a first guess, samples, derivatives of the step, and a guarded run that is saved.
 
 use dalembert::nalgebra::{Matrix4, SVector, vector};
-use dalembert::rules::{DisplacementRule, Node, Quadrature, SelfAdjoint};
+use dalembert::rules::{DisplacementRule, Node, Quadrature};
 use dalembert::step::{Flow, PhaseMatrix};
 use dalembert::tolerance::{GuardedCheckpoint, GuardedTrajectory, ToleranceError};
 use dalembert::{
     Composition, Discretise, Gauss, Midpoint, Splitting, State, StepError, Trajectory, Trapezoidal,
     rayleigh_system,
 };
+use dalembert_tests::simpson::Simpson;
 use dalembert_tests::systems::{Charge, DoublePendulum};
 
 #[derive(Clone, Copy)]
@@ -117,19 +118,6 @@ struct Middle;
 impl DisplacementRule for Middle {
     const NODES: &'static [Node] = Midpoint::NODES;
 }
-
-#[derive(Clone, Copy)]
-struct Simpson;
-
-impl DisplacementRule for Simpson {
-    const NODES: &'static [Node] = &[
-        Node { position: 0.0, weight: 1.0 / 6.0 },
-        Node { position: 0.5, weight: 2.0 / 3.0 },
-        Node { position: 1.0, weight: 1.0 / 6.0 },
-    ];
-}
-
-impl SelfAdjoint for Simpson {}
 
 /// With friction that depends on q, gyroscopic terms and a general force: all terms are there.
 #[test]

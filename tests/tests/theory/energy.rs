@@ -1,12 +1,13 @@
 //! The energy ledger: each method's own account of what forces did, against an integration beside it.
 
 use dalembert::nalgebra::{Matrix2, SVector, vector};
-use dalembert::rules::{DisplacementRule, Node, Quadrature};
+use dalembert::rules::Quadrature;
 use dalembert::step::{Discretised, EnergyExchange, ForceWork, Quantity};
 use dalembert::{
     Composition, Discretise, EnergyLedger, Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, Splitting,
     State, StepError, Trapezoidal, rayleigh_system,
 };
+use dalembert_tests::simpson::Simpson;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
@@ -179,18 +180,6 @@ impl Pumped {
     fn force(&self, q: [f64; 2], v: [f64; 2]) -> [f64; 2] {
         [-self.0.swirl * q[1], self.0.swirl * q[0] + self.0.pump * v[0]]
     }
-}
-
-/// Simpson's rule, of one's own.
-#[derive(Clone, Copy)]
-struct Simpson;
-
-impl DisplacementRule for Simpson {
-    const NODES: &'static [Node] = &[
-        Node { position: 0.0, weight: 1.0 / 6.0 },
-        Node { position: 0.5, weight: 2.0 / 3.0 },
-        Node { position: 1.0, weight: 1.0 / 6.0 },
-    ];
 }
 
 const TIME: f64 = 2.0;
