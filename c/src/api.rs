@@ -103,11 +103,7 @@ macro_rules! c_functions {
             /// The caller's memory: opaque in C.
             pub type CMemory = calls::Memory<CSystem, C_COORDINATES>;
 
-            const LAYOUT: u64 = $crate::face::layout(
-                <$system as $crate::face::Fields>::FIELDS,
-                &[stringify!($prefix), stringify!($rule), <CScalar as $crate::face::FieldType>::BASE],
-                &[C_COORDINATES, C_INPUTS, C_PARAMETERS.len(), <$system as $crate::face::Described<C_COORDINATES>>::TAKES_TIME as usize, size_of::<$system>()],
-            );
+            const LAYOUT: u64 = $crate::face::layout::<$system, C_COORDINATES>(stringify!($prefix), stringify!($rule));
 
             /// The header that declares these functions.
             pub const HEADER: $crate::Header = $crate::Header {
@@ -165,7 +161,7 @@ macro_rules! c_functions {
                 q: *const CVector,
                 v: *const CVector,
             ) -> $crate::Status {
-                let given = || Ok((<CInput as $crate::face::Input<CScalar>>::zero(), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?)));
+                let given = $crate::c_functions!(@given , $($t)?);
                 // SAFETY: the caller's promise.
                 unsafe { calls::init::<CSystem, C_COORDINATES>(memory, (size, layout), parameters, h, given, [q, v]) }
             }
@@ -179,7 +175,7 @@ macro_rules! c_functions {
                 report: *mut $crate::CReport,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::step::<CSystem, C_COORDINATES>(memory, || Ok(($crate::c_functions!(@or <CInput as $crate::face::Input<CScalar>>::zero(); $(machine::input(read($u)?)?)?), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), report) }
+                unsafe { calls::step::<CSystem, C_COORDINATES>(memory, $crate::c_functions!(@given $($u)?, $($t)?), report) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_step_linearized"))]
@@ -192,7 +188,7 @@ macro_rules! c_functions {
                 linearized: *mut CLinearized,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::step_linearized::<CSystem, C_COORDINATES>(memory, || Ok(($crate::c_functions!(@or <CInput as $crate::face::Input<CScalar>>::zero(); $(machine::input(read($u)?)?)?), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), report, linearized) }
+                unsafe { calls::step_linearized::<CSystem, C_COORDINATES>(memory, $crate::c_functions!(@given $($u)?, $($t)?), report, linearized) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_state"))]
@@ -214,7 +210,7 @@ macro_rules! c_functions {
                 v: *mut CVector,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::velocity::<CSystem, C_COORDINATES>(memory, || Ok((<CInput as $crate::face::Input<CScalar>>::zero(), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), v) }
+                unsafe { calls::velocity::<CSystem, C_COORDINATES>(memory, $crate::c_functions!(@given , $($t)?), v) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_energy"))]
@@ -225,7 +221,7 @@ macro_rules! c_functions {
                 energy: *mut CScalar,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::energy::<CSystem, C_COORDINATES>(memory, || Ok((<CInput as $crate::face::Input<CScalar>>::zero(), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), energy) }
+                unsafe { calls::energy::<CSystem, C_COORDINATES>(memory, $crate::c_functions!(@given , $($t)?), energy) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_time"))]
@@ -249,7 +245,7 @@ macro_rules! c_functions {
                 p: *mut CVector,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
-                unsafe { calls::state_after::<CSystem, C_COORDINATES>(memory, || Ok(($crate::c_functions!(@or <CInput as $crate::face::Input<CScalar>>::zero(); $(machine::input(read($u)?)?)?), $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?))), after, [q, p]) }
+                unsafe { calls::state_after::<CSystem, C_COORDINATES>(memory, $crate::c_functions!(@given $($u)?, $($t)?), after, [q, p]) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_set_state"))]
@@ -289,6 +285,13 @@ macro_rules! c_functions {
                 $crate::text(status)
             }
         }
+    };
+    // u and t of a call, 0 where it has none.
+    (@given $($u:ident)?, $($t:ident)?) => {
+        || Ok((
+            $crate::c_functions!(@or <CInput as $crate::face::Input<CScalar>>::zero(); $(machine::input(read($u)?)?)?),
+            $crate::c_functions!(@or CScalar::constant(0.0); $(machine::time($t)?)?),
+        ))
     };
     (@or $other:expr;) => { $other };
     (@or $other:expr; $own:expr) => { $own };

@@ -1,11 +1,24 @@
 //! A number that tells layouts apart.
 
-use crate::Field;
+use dalembert::system::Described;
 
-/// A number that stands for the layout of memory and parameters: FNV-1a over names, types and offsets, the
-/// method and the version of the library. Header and library of different builds differ in it.
+use crate::{Field, FieldType, Fields};
+
+/// A number that stands for the layout of memory and parameters of a system by a rule: FNV-1a over names,
+/// types and offsets, the rule and the version of the library. Header and library of different builds differ
+/// in it.
 #[must_use]
-pub const fn layout(fields: &[Field], words: &[&str], sizes: &[usize]) -> u64 {
+pub const fn layout<S, const N: usize>(name: &str, rule: &str) -> u64
+where
+    S: Described<N> + Fields,
+    S::Scalar: FieldType,
+{
+    let words = [name, rule, <S::Scalar as FieldType>::BASE];
+    let sizes = [N, S::INPUTS, S::PARAMETERS.len(), S::TAKES_TIME as usize, size_of::<S>()];
+    hashed(S::FIELDS, &words, &sizes)
+}
+
+const fn hashed(fields: &[Field], words: &[&str], sizes: &[usize]) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325;
     let mut i = 0;
     while i < fields.len() {

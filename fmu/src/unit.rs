@@ -1,6 +1,6 @@
 //! A unit, as `fmu!` states it.
 
-use dalembert_face::{Described, Field, FieldType, Fields, Interface, layout};
+use dalembert_face::{Field, Fields, Interface, layout};
 
 /// A system with its step size and start, as a unit.
 ///
@@ -43,10 +43,7 @@ impl<I: Interface<N>, const N: usize> Unit<I, N> {
             }
             i += 1;
         }
-        let words = [name, rule, <I::Scalar as FieldType>::BASE];
-        let (inputs, parameters_listed) = (I::System::INPUTS, I::System::PARAMETERS.len());
-        let sizes = [N, inputs, parameters_listed, I::System::TAKES_TIME as usize, size_of::<I::System>()];
-        let layout = layout(fields, &words, &sizes);
+        let layout = layout::<I::System, N>(name, rule);
         Self { name, rule, layout, library, step_size, parameters, start }
     }
 
