@@ -1,9 +1,9 @@
 //! `#[rayleigh_system]` and `#[differentiable]`, from tokens to tokens.
 //!
 //! options → parse → check → decide who makes the derivatives → write. Written out, they take lower →
-//! differentiate → emit; by dual numbers, rewrite. Plain proc_macro2 code, so that tests and fuzzers can call
-//! it. Each stage goes on with what the one before it found sound, so that all mistakes show in one compile;
-//! if there is any, the user's item is returned beside the diagnostics.
+//! differentiate → derived → emit; by dual numbers, rewrite. Plain proc_macro2 code, so that tests and
+//! fuzzers can call it. Each stage goes on with what the one before it found sound, so that all mistakes
+//! show in one compile; if there is any, the user's item is returned beside the diagnostics.
 
 pub mod attribute;
 pub mod check;
@@ -11,6 +11,7 @@ mod conditions;
 mod contexts;
 mod decide;
 mod depth;
+mod derived;
 pub mod diagnostics;
 pub mod differentiate;
 mod dual;
@@ -33,7 +34,6 @@ mod structure;
 mod syntax;
 mod valueless;
 mod write;
-mod written_out;
 
 use proc_macro2::TokenStream;
 
@@ -98,7 +98,7 @@ fn system(
         return fallback::with_stubs(&source, &options.rules, &options.lanes, report);
     }
     match decide::engine(&system, runtime, &mut report) {
-        Decision::WrittenOut(written) => written_out::system(&system, *written, runtime.is_portable),
+        Decision::WrittenOut(derived) => write::expanded::system(&system, *derived, runtime.is_portable),
         Decision::DualNumbers(twins, why) => dual::system(&system, &twins, why, runtime.is_portable),
         Decision::Refused => fallback::with_stubs(&source, &options.rules, &options.lanes, report),
     }

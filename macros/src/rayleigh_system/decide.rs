@@ -1,11 +1,11 @@
 //! Which engine makes a system's derivatives.
 
+use super::derived::{self, Derived};
 use super::diagnostics::{Mistake, Report};
 use super::dual::rewrite;
 use super::dual::{self, Twins};
 use super::lower::{self, Refusal};
 use super::model::{Engine, Runtime, System};
-use super::written_out::{self, WrittenOut};
 use super::{joint, lanes, parameters};
 
 /// Bodies of at most as many expressions are lowered where rewriting them is doubtful: what stands in loops
@@ -15,7 +15,7 @@ const MOST_EXPRESSIONS: usize = 2_000;
 /// The decision which engine makes the derivatives.
 pub enum Decision {
     /// They are written out.
-    WrittenOut(Box<WrittenOut>),
+    WrittenOut(Box<Derived>),
     /// num-dual, over the twins; with the reason, where nobody asked for it.
     DualNumbers(Twins, Option<Refusal>),
     /// Nobody: the report says why.
@@ -46,7 +46,7 @@ fn asks_for_code(system: &System<'_>) -> bool {
 
 /// `derivatives = auto`: written out where they can be.
 fn by_either(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Decision {
-    let refusal = match expansion(system, runtime, report) {
+    let refusal = match expansion(system, report) {
         Ok(decision) => return decision,
         Err(refusal) if refusal.is_final => return not_lowered(refusal, false, report),
         Err(refusal) => refusal,
@@ -65,7 +65,7 @@ fn by_either(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Deci
 
 /// `derivatives = expanded`: written out, or an error.
 fn written_out(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Decision {
-    expansion(system, runtime, report).unwrap_or_else(|refusal| {
+    expansion(system, report).unwrap_or_else(|refusal| {
         // Advice that the system could not follow is none.
         let is_sound = report.is_empty() && !refusal.is_final && !asks_for_code(system);
         let by_duals = is_sound && runtime.has_std && {
@@ -78,7 +78,7 @@ fn written_out(system: &System<'_>, runtime: Runtime, report: &mut Report) -> De
 }
 
 /// The derivatives written out, as far as the system has what it asks for.
-fn expansion(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Result<Decision, Refusal> {
+fn expansion(system: &System<'_>, report: &mut Report) -> Result<Decision, Refusal> {
     let lowered = lower::system(system);
     joint::check(system, lowered.as_ref().ok(), report);
     let is_sound = report.is_empty();
@@ -93,12 +93,12 @@ fn expansion(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Resu
     // Parameters that are none hide nothing of what is found in the expressions.
     let without_parameters = System { parameters: Vec::new(), ..system.clone() };
     let system = if report.is_empty() { system } else { &without_parameters };
-    let written = written_out::functions(system, lowered, runtime.is_portable)?;
-    lanes::check_written(system, &written, report);
+    let derived = derived::functions(system, lowered)?;
+    lanes::check_derived(system, &derived, report);
     if !report.is_empty() {
         return Ok(Decision::Refused);
     }
-    Ok(Decision::WrittenOut(Box::new(written)))
+    Ok(Decision::WrittenOut(Box::new(derived)))
 }
 
 /// `derivatives = num_dual`: over rewritten bodies, or over expressions where those say too little.

@@ -11,13 +11,14 @@ mod inlined;
 mod lanes;
 mod names;
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
 
 use proc_macro2::TokenStream;
 use quote::format_ident;
 use syn::Ident;
 
-use super::graph::{Graph, Node, Operation};
+use super::graph::{Graph, Node, Operation, before_the_run};
 use expression::{Writer, partner};
 pub use inlined::{inlined, inlined_on_lanes};
 use names::Names;
@@ -40,6 +41,8 @@ pub struct StraightLine {
     pub uses_inputs: bool,
     /// Whether one of the runtime's elementary functions is called.
     pub calls_elementary: bool,
+    /// Names of the runtime that are written.
+    pub names: BTreeSet<&'static str>,
     /// Values that code on members has from before it runs.
     pub fields: Vec<Field>,
     /// How many angles and reciprocals start from those of the sweep before.
@@ -126,30 +129,6 @@ enum Kind<'l> {
     Duals,
 }
 
-/// Which expressions neither change with q, v and t nor hold a parameter of the function, whose names are
-/// `taken`; and which of them read a field or the input, which is held.
-pub fn before_the_run(graph: &Graph, nodes: &[Node], taken: &[&str]) -> (Vec<bool>, Vec<bool>) {
-    let (mut is_constant, mut reads) = (vec![false; graph.len()], vec![false; graph.len()]);
-    for &node in nodes {
-        let operation = graph.operation(node);
-        let (own_constant, own_reads) = match operation {
-            Operation::Parameter(index) => {
-                let parameter = graph.parameter(index);
-                let first = parameter.tokens.clone().into_iter().next().map(|word| word.to_string());
-                let is_taken = first.is_some_and(|word| taken.contains(&word.as_str()));
-                (!is_taken && !graph.is_time(operation), parameter.reads_self())
-            }
-            Operation::Input(_) => (true, true),
-            Operation::Coordinate(_) | Operation::Velocity(_) => (false, false),
-            _ => (true, false),
-        };
-        is_constant[node.index()] =
-            own_constant && operation.arguments().all(|argument| is_constant[argument.index()]);
-        reads[node.index()] = own_reads || operation.arguments().any(|argument| reads[argument.index()]);
-    }
-    (is_constant, reads)
-}
-
 fn written(writing: Writing<'_>, outputs: &[Node], kind: Kind<'_>) -> StraightLine {
     let Writing { graph, scalar, taken, is_portable } = writing;
     let is_dual = matches!(kind, Kind::Duals);
@@ -188,7 +167,8 @@ fn written(writing: Writing<'_>, outputs: &[Node], kind: Kind<'_>) -> StraightLi
         is_portable,
         calls_elementary: Cell::new(false),
         is_lanes: vec![false; graph.len()],
-        lanes: format_ident!("{}", if matches!(kind, Kind::Members(..)) { "Members" } else { "Lanes" }),
+        lanes: if matches!(kind, Kind::Members(..)) { "Members" } else { "Lanes" },
+        runtime: RefCell::default(),
         stages: lanes,
         is_dual,
         anchored: match kind {
@@ -290,6 +270,7 @@ fn written(writing: Writing<'_>, outputs: &[Node], kind: Kind<'_>) -> StraightLi
         uses_velocities,
         uses_inputs,
         calls_elementary,
+        names: writer.runtime.into_inner(),
         fields,
         anchors: writer.anchors,
         parameters,

@@ -8,6 +8,7 @@
 
 mod algebra;
 mod angles;
+mod before;
 mod factor;
 mod fused;
 mod operation;
@@ -27,6 +28,7 @@ use syn::Expr;
 use super::hygiene::{MARK, unmarked};
 use super::syntax::regrouped;
 
+pub use before::before_the_run;
 pub use operation::{Comparison, Function, Operation, PairFunction, Predicate};
 
 /// An expression of a [`Graph`]. Arguments are smaller than what is made of them.
@@ -294,6 +296,17 @@ impl Graph {
     pub fn entry(&mut self, array: &str, index: usize) -> Node {
         let (array, index) = (format_ident!("{array}"), Literal::usize_unsuffixed(index));
         self.parameter_of(quote!(#array[#index]), true)
+    }
+
+    /// `value.member`, of a local.
+    pub fn member(&mut self, value: &str, member: &str) -> Node {
+        let [value, member] = [value, member].map(|name| format_ident!("{name}"));
+        self.written(quote!(#value.#member))
+    }
+
+    /// The time at the end of a step.
+    pub fn end_time(&mut self) -> Node {
+        self.written(quote!(t_end))
     }
 
     fn parameter_of(&mut self, tokens: TokenStream, is_entry: bool) -> Node {

@@ -2,11 +2,11 @@
 
 use syn::Ident;
 
+use super::derived::{CONDITIONAL, Derived};
 use super::diagnostics::{Mistake, Report};
 use super::model::{Engine, System};
 use super::rules::Rule;
 use super::structure::{Damping, Findings};
-use super::written_out::{CONDITIONAL, WrittenOut};
 
 /// Reports what can be told from the attribute and the signatures.
 pub fn check(system: &System<'_>, report: &mut Report) {
@@ -40,16 +40,14 @@ pub fn check(system: &System<'_>, report: &mut Report) {
 }
 
 /// Reports what the expressions show: why steps are not explicit, or the derivatives are not for lanes.
-pub fn check_written(system: &System<'_>, written: &WrittenOut, report: &mut Report) {
-    if let (Some(word), Some(findings), false) =
-        (&system.lanes.explicit, written.findings(), written.has_explicit_lanes())
-    {
-        refuse(word, why_implicit(findings), report);
+pub fn check_derived(system: &System<'_>, derived: &Derived, report: &mut Report) {
+    if let (Some(word), false) = (&system.lanes.explicit, derived.has_explicit_lanes()) {
+        refuse(word, why_implicit(&derived.findings), report);
     }
-    if let (Some(word), false) = (&system.lanes.midpoint, written.has_midpoint_lanes()) {
+    if let (Some(word), false) = (&system.lanes.midpoint, derived.has_midpoint_lanes()) {
         refuse(word, CONDITIONAL, report);
     }
-    if let (Some(word), Some(lacks)) = (&system.lanes.gauss, written.lacks_gauss_lanes()) {
+    if let (Some(word), Some(Err(lacks))) = (&system.lanes.gauss, &derived.stages) {
         refuse(word, lacks, report);
     }
 }

@@ -2,6 +2,7 @@
 //! function below writes one `impl`, and the comment above each quotation shows what it expands to.
 
 mod continuous;
+pub mod expanded;
 mod fused;
 mod imports;
 pub mod item;

@@ -22,7 +22,6 @@ const KNOWN: &[&str] = &[
     "c: {boundary, machine, parameters}",
     "fmu: {cosimulation, derivatives, saved}",
     "macros/rayleigh_system/lower: {integer, value}",
-    "macros/rayleigh_system/written_out: {in_lanes, stages}",
     "python/binding: {checks, events, motion, offer, record, system}",
     "python/binding: {class, ensemble}",
     "python/binding: {many, model}",

@@ -1,6 +1,7 @@
 //! Expressions and the statements that name them, in as few brackets as keep every bit.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -74,7 +75,9 @@ pub struct Writer<'g> {
     /// Whether the value is lanes; nothing is in code on numbers.
     pub is_lanes: Vec<bool>,
     /// The type of lanes.
-    pub lanes: Ident,
+    pub lanes: &'static str,
+    /// Names of the runtime that are written.
+    pub runtime: RefCell<BTreeSet<&'static str>>,
     /// The number of lanes.
     pub stages: Ident,
     /// Whether numbers are `Real<D>`.

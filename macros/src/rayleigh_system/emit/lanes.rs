@@ -3,18 +3,26 @@
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
+use syn::Ident;
 
 use super::super::graph::{Comparison, Node, Operation};
 use super::expression::{Binding, Writer, Written};
 
 impl Writer<'_> {
+    /// A name of the runtime, noted for the imports.
+    fn runtime(&self, name: &'static str) -> Ident {
+        self.runtime.borrow_mut().insert(name);
+        format_ident!("{name}")
+    }
+
     /// The value, in lanes also where it is a number.
     pub(super) fn lanes(&self, node: Node) -> TokenStream {
         let written = self.expression(node);
         if self.is_lanes[node.index()] {
             written.tokens
         } else {
-            let (lanes, scalar, stages, value) = (&self.lanes, self.scalar, &self.stages, written.tokens);
+            let lanes = self.runtime(self.lanes);
+            let (scalar, stages, value) = (self.scalar, &self.stages, written.tokens);
             quote!(#lanes::<#scalar, #stages>::splat(#value))
         }
     }
@@ -34,8 +42,8 @@ impl Writer<'_> {
         if self.is_lanes[node.index()] {
             written.within(Binding::Atom)
         } else {
-            let (stages, value) = (&self.stages, written.tokens);
-            quote!(Mask::<#stages>::splat(#value))
+            let (mask, stages, value) = (self.runtime("Mask"), &self.stages, written.tokens);
+            quote!(#mask::<#stages>::splat(#value))
         }
     }
 
@@ -58,9 +66,10 @@ impl Writer<'_> {
             Operation::Select(condition, a, b) => {
                 let (a, b) = (self.lanes(a), self.lanes(b));
                 if self.is_lanes[condition.index()] {
-                    let (lanes, condition) = (&self.lanes, self.mask(condition));
-                    if lanes == "Members" {
-                        (quote!(Members::select(#condition, #a, #b)), Binding::Atom)
+                    let condition = self.mask(condition);
+                    if self.lanes == "Members" {
+                        let members = self.runtime(self.lanes);
+                        (quote!(#members::select(#condition, #a, #b)), Binding::Atom)
                     } else {
                         (quote!(#condition.select(#a, #b)), Binding::Atom)
                     }

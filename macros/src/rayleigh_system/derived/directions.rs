@@ -3,34 +3,14 @@
 
 use super::*;
 
-impl Code<'_> {
-    /// `lagrangian_variations`
-    pub(super) fn variations(&mut self, of: &Derivatives) -> Written<TokenStream> {
-        let scalar = &self.system.scalar;
-        let n = self.system.degrees.times(1);
+impl Deriving<'_> {
+    /// Derivatives of L along the directions `minus` and `plus`.
+    pub(super) fn variations(&mut self, of: &Derivatives) -> Made<Routine> {
         let [minus, plus] = ["minus", "plus"].map(|name| Along::parameters(&mut self.graph, name));
         let first = [minus, plus].map(|along| self.along(&of.gradient, along));
-        let mixed = self.matrix(|code, i, j| code.mixed(of, (i, minus), (j, plus)));
+        let mixed = self.matrix(|deriving, i, j| deriving.mixed(of, (i, minus), (j, plus)));
         let outputs = [first.concat(), mixed].concat();
-        let line = self.code(self.system.home_of(Part::Lagrangian), &outputs)?;
-        let [by_minus, by_plus, mixed] =
-            self.parts(&line.outputs, [Shape::Vector, Shape::Vector, Shape::Matrix]);
-        let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
-        let (minus, plus) = (parameter("minus", line.uses("minus")), parameter("plus", line.uses("plus")));
-        let statements = &line.statements;
-        Ok(quote! {
-            #[inline]
-            fn lagrangian_variations(
-                &self,
-                #q: &Vector,
-                #v: &Vector,
-                #minus: Direction<#scalar>,
-                #plus: Direction<#scalar>,
-            ) -> Variations<#scalar, #n> {
-                #statements
-                Variations { minus: #by_minus, plus: #by_plus, mixed: #mixed }
-            }
-        })
+        self.made(Of::Variations, self.system.home_of(Part::Lagrangian), &outputs)
     }
 
     /// Entry i: first ∂f/∂qᵢ + second ∂f/∂vᵢ.
@@ -95,8 +75,7 @@ impl Along {
     /// `minus.first`, `minus.second`.
     fn parameters(graph: &mut Graph, name: &str) -> Self {
         let [first, second] = ["first", "second"].map(|part| {
-            let (direction, member) = (format_ident!("{name}"), format_ident!("{part}"));
-            let node = graph.written(quote!(#direction.#member));
+            let node = graph.member(name, part);
             graph.give_name(node, &format!("{name}_{part}"));
             Some(node)
         });

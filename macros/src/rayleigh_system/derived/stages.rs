@@ -12,58 +12,14 @@
 
 use std::collections::BTreeSet;
 
-use super::super::emit::{Anchored, inlined_on_lanes, number_of_stages};
-use super::in_lanes::tuple;
+use super::super::graph::before_the_run;
 use super::*;
 
-/// `stages`, and the functions of several members at once where they are asked for.
-#[derive(Default)]
-pub(super) struct StagesWritten {
-    pub(super) function: Option<TokenStream>,
-    pub(super) in_lanes: Option<TokenStream>,
-    /// Why they are not written, if they were to be.
-    pub(super) lacks: Option<&'static str>,
-}
-
-impl StagesWritten {
-    fn lacking(why: &'static str) -> Self {
-        Self { lacks: Some(why), ..Self::default() }
-    }
-}
-
-/// The parameter by which code in sweeps keeps angles and reciprocals from one sweep to the next.
-pub(super) struct Anchors {
-    pub(super) ty: TokenStream,
-    /// The name of the parameter.
-    pub(super) parameter: Ident,
-    /// `let (angles, reciprocals) = anchors;`
-    pub(super) apart: Option<TokenStream>,
-}
-
-impl Anchors {
-    /// Of values of the type `lanes`.
-    pub(super) fn new(line: &StraightLine, lanes: &TokenStream, is_fused: bool) -> Self {
-        let fused = is_fused.then(|| quote!(, true));
-        let groups: Vec<_> = [("Angle", "angles"), ("Reciprocal", "reciprocals")]
-            .into_iter()
-            .zip(line.anchors)
-            .filter(|&(_, count)| count > 0)
-            .map(|((ty, name), count)| {
-                let (ty, name, count) =
-                    (format_ident!("{ty}"), format_ident!("{name}"), Literal::usize_unsuffixed(count));
-                (quote!([::dalembert::generated::#ty<#lanes #fused>; #count]), name)
-            })
-            .collect();
-        let ty = tuple(groups.iter().map(|(ty, _)| ty.clone()));
-        match &groups[..] {
-            [(_, name)] => Self { ty, parameter: name.clone(), apart: None },
-            groups => {
-                let names = tuple(groups.iter().map(|(_, name)| quote!(#name)));
-                let apart = (!groups.is_empty()).then(|| quote!(let #names = anchors;));
-                Self { ty, parameter: parameter("anchors", apart.is_some()), apart }
-            }
-        }
-    }
+/// The equations at a stage.
+pub struct Stages {
+    pub at_once: Routine,
+    /// Of several members: rates, and the corrections of what they lead to.
+    pub in_lanes: Option<[Routine; 2]>,
 }
 
 const NOT_FACTORED: &str =
@@ -74,16 +30,11 @@ pub const CONDITIONAL: &str = "reads all fields before the run, and a body reads
 /// Longer factorisations are left to the runtime.
 const MAX_PRODUCTS: usize = 4000;
 
-impl Code<'_> {
-    /// `stages`, or the reason why they are left to the runtime.
-    pub(super) fn stages(
-        &mut self,
-        lagrangian: Node,
-        rayleigh: Option<Node>,
-        force: Option<&[Node]>,
-    ) -> Written<StagesWritten> {
-        let of_lagrangian = self.derivation.hessian(&mut self.graph, lagrangian, "l");
-        let rates = self.rates(&of_lagrangian.gradient, rayleigh, force);
+impl Deriving<'_> {
+    /// The equations at a stage, or the reason why they are left to the runtime.
+    pub(super) fn stages(&mut self) -> Made<Result<Stages, &'static str>> {
+        let of_lagrangian = self.derivation.hessian(&mut self.graph, self.lagrangian, "l");
+        let rates = self.rates(&of_lagrangian.gradient);
         let momenta = self.covector(&of_lagrangian.gradient, true);
         // What the closure returns is known after the rates.
         let late: Vec<Node> = (0..self.n).map(|index| self.graph.entry("p", index)).collect();
@@ -98,7 +49,7 @@ impl Code<'_> {
             })
             .collect();
         let Some(corrections) = self.solved(&of_lagrangian, &residuals) else {
-            return Ok(StagesWritten::lacking(NOT_FACTORED));
+            return Ok(Err(NOT_FACTORED));
         };
 
         let outputs = [rates, residuals, corrections].concat();
@@ -107,75 +58,56 @@ impl Code<'_> {
         let outputs = self.rounded(&outputs)?;
         // Lanes take both ways of a selection.
         if self.graph.is_conditional(outputs.iter().copied()) {
-            return Ok(StagesWritten::lacking(CONDITIONAL));
+            return Ok(Err(CONDITIONAL));
         }
         let reciprocals = self.of_corrections_alone(&outputs);
-        let anchored = Anchored(&reciprocals);
-        let in_lanes =
-            self.system.lanes.gauss.as_ref().map(|_| self.stages_in_lanes(&outputs, &late, anchored));
-        let mut taken = vec!["q", "v", "p", "rate", "momenta", "anchors", "angles", "reciprocals"];
-        if self.system.home() == Home::View {
-            taken.extend(["u", "t", "elapsed"]);
-        }
-        let mut line = self.writing(&taken).lanes(&outputs, &late, anchored);
-        if self.system.home() == Home::View {
-            let seen = |tokens: TokenStream| view::seen_from_view(tokens, &self.system.name);
-            let input = line.uses_inputs.then(|| quote!(let u = self.u;));
-            let time = line.uses("t").then(|| quote!(let t = *elapsed + self.t;));
-            let statements = seen(line.statements);
-            line.statements = quote!(#input #time #statements);
-            line.later = seen(line.later);
-            line.outputs = line.outputs.into_iter().map(seen).collect();
-        }
-        self.calls_elementary |= line.calls_elementary;
-        let (rates, rest) = line.outputs.split_at(self.n);
-        let (residuals, corrections) = rest.split_at(self.n);
-        let (scalar, n) = (&self.system.scalar, self.system.degrees.times(1));
-        let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
-        let (statements, later, stages) = (&line.statements, &line.later, number_of_stages(&self.graph));
-        let (function, text, elapsed) = if self.system.timed.any() {
-            let elapsed = parameter("elapsed", line.uses("t"));
-            let text = " G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages, each at its own time.";
-            (format_ident!("stages_in_time"), text, Some(quote!(#elapsed: &Lanes<#scalar, #stages>,)))
-        } else {
-            (format_ident!("stages"), " G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages.", None)
-        };
-        let lanes = quote!(Lanes<#scalar, #stages>);
-        let Anchors { ty, parameter: anchors, apart } = Anchors::new(&line, &lanes, self.system.is_fused);
-        let inline = inlined_on_lanes(&quote!(#statements #later));
-        let function = quote! {
-            type Anchors<const #stages: usize> = #ty;
+        let home = self.system.home();
+        let in_lanes = self.system.lanes.gauss.is_some().then(|| {
+            let (rates, rest) = outputs.split_at(self.n);
+            let handed = self.handed(rest, &late);
+            let kind = Kind::Members { handed: Vec::new(), reciprocals: Some(reciprocals.clone()) };
+            let rates = Routine { of: Of::Rates, home, kind, outputs: [rates, &handed].concat() };
+            let kind = Kind::Members { handed, reciprocals: None };
+            [rates, Routine { of: Of::Corrections, home, kind, outputs: rest.to_vec() }]
+        });
+        let kind = Kind::Lanes { late, reciprocals };
+        Ok(Ok(Stages { at_once: Routine { of: Of::Stages, home, kind, outputs }, in_lanes }))
+    }
 
-            #[doc = #text]
-            #inline
-            fn #function<const #stages: usize>(
-                &self,
-                #anchors: &mut Self::Anchors<#stages>,
-                #elapsed
-                #q: &LaneVector<#scalar, #n, #stages>,
-                #v: &LaneVector<#scalar, #n, #stages>,
-                momenta: impl FnOnce(&LaneVector<#scalar, #n, #stages>) -> LaneVector<#scalar, #n, #stages>,
-            ) -> Stages<#scalar, #n, #stages> {
-                #apart
-                #statements
-                let rate = [#(#rates),*];
-                let p = momenta(&rate);
-                #later
-                Stages { rate, residual: [#(#residuals),*], correction: [#(#corrections),*] }
+    /// The nodes to hand over: `outputs` need them, and the momenta `late` do not change them. Velocities and
+    /// values known before the run are at hand, and a product or a negation of those is sooner computed again
+    /// than stored.
+    fn handed(&self, outputs: &[Node], late: &[Node]) -> Vec<Node> {
+        let nodes = self.graph.reachable(outputs.iter().copied());
+        let (is_constant, _) = before_the_run(&self.graph, &nodes, Of::Corrections.arguments(&Kind::Numbers));
+        let mut is_late = vec![false; self.graph.len()];
+        let mut needed = outputs.to_vec();
+        for &node in &nodes {
+            let operation = self.graph.operation(node);
+            is_late[node.index()] =
+                late.contains(&node) || operation.arguments().any(|argument| is_late[argument.index()]);
+            if is_late[node.index()] {
+                needed.extend(operation.arguments());
             }
+        }
+        let is_at_hand = |node: Node| {
+            is_constant[node.index()] || matches!(self.graph.operation(node), Operation::Velocity(_))
         };
-        Ok(StagesWritten { function: Some(function), in_lanes, lacks: None })
+        needed.retain(|&node| {
+            let operation = self.graph.operation(node);
+            let is_product = matches!(operation, Operation::Multiply(..) | Operation::Negate(_));
+            let is_short = is_product && operation.arguments().all(is_at_hand);
+            !is_late[node.index()] && !is_at_hand(node) && !is_short
+        });
+        needed.sort_unstable();
+        needed.dedup();
+        needed
     }
 
     /// G = ∂L/∂q − ∂R/∂v + f.
-    pub(super) fn rates(
-        &mut self,
-        of_lagrangian: &Gradient,
-        rayleigh: Option<Node>,
-        force: Option<&[Node]>,
-    ) -> Vec<Node> {
+    pub(super) fn rates(&mut self, of_lagrangian: &Gradient) -> Vec<Node> {
         let of_rayleigh =
-            rayleigh.map(|root| self.derivation.gradient(&mut self.graph, root)).unwrap_or_default();
+            self.rayleigh.map(|root| self.derivation.gradient(&mut self.graph, root)).unwrap_or_default();
         (0..self.n)
             .map(|index| {
                 let (q, v) = (self.variable(index, false), self.variable(index, true));
@@ -184,7 +116,7 @@ impl Code<'_> {
                     let opposite = self.graph.negated(friction);
                     rate = Some(self.added(rate, opposite));
                 }
-                let component = force.map(|components| components[index]);
+                let component = self.force.map(|components| components[index]);
                 if let Some(component) = component.filter(|&f| self.graph.constant_value(f) != Some(0.0)) {
                     rate = Some(self.added(rate, component));
                 }

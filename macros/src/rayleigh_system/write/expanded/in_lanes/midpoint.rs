@@ -2,31 +2,14 @@
 
 use super::*;
 
-/// The outputs that `DiscreteInLanes` asks for, as `Discrete` computes them.
-pub(in super::super) struct MidpointOutputs<'o> {
-    /// p0, and the entries of its matrix in the form that they are kept in.
-    pub kernel: &'o [Node],
-    /// p0 and p1.
-    pub momenta: &'o [Node],
-    pub diagonals: Option<usize>,
-}
-
-/// The names of parameters, and of what the frame declares.
-pub(in super::super) const TAKEN_AT_MIDPOINT: [&str; 7] = ["q", "q0", "v", "h", "half", "fields", "systems"];
-
-impl Code<'_> {
-    /// The functions of `DiscreteInLanes`; nothing where a field is read within a condition, since fields are
-    /// read before.
+impl Text<'_> {
+    /// The functions of `DiscreteInLanes`.
     pub(in super::super) fn midpoint_in_lanes(
-        &mut self,
-        outputs: &MidpointOutputs<'_>,
-    ) -> Option<TokenStream> {
-        let MidpointOutputs { kernel, momenta, diagonals } = *outputs;
-        if self.graph.is_conditional(kernel.iter().chain(momenta).copied()) {
-            return None;
-        }
-        let kernel = self.on_members(kernel, &TAKEN_AT_MIDPOINT, &[], None);
-        let momenta = self.on_members(momenta, &TAKEN_AT_MIDPOINT, &[], None);
+        &self,
+        functions: &[Routine; 2],
+        diagonals: Option<usize>,
+    ) -> TokenStream {
+        let [kernel, momenta] = functions.each_ref().map(|function| self.line(function));
         let fields = OfMembers::fields_of(self, [&kernel, &momenta]);
         let is_timed = self.system.timed.any();
         let timed = is_timed.then(|| {
@@ -35,7 +18,9 @@ impl Code<'_> {
             )
         });
         let gathered = self.gathered(&fields);
-        let (scalar, n, members) = (&self.system.scalar, self.system.degrees.times(1), &fields.members);
+        let (member_vector, scalar, n, members) =
+            (self.name("MemberVector"), &self.system.scalar, self.system.degrees.times(1), &fields.members);
+        let vector = quote!(#member_vector<#scalar, #n, #members>);
         let width = diagonals
             .map_or_else(|| n.clone(), |diagonals| Literal::usize_unsuffixed(diagonals).to_token_stream());
 
@@ -48,8 +33,8 @@ impl Code<'_> {
                 #[inline(always)]
                 fn #name<const #members: usize>(
                     #of_fields: &Self::Fields<#members>,
-                    q0: &MemberVector<#scalar, #n, #members>,
-                    v: &MemberVector<#scalar, #n, #members>,
+                    q0: &#vector,
+                    v: &#vector,
                     h: #scalar,
                 ) -> #ty {
                     #apart
@@ -57,24 +42,23 @@ impl Code<'_> {
                 }
             }
         };
-        let vector = quote!(MemberVector<#scalar, #n, #members>);
-        let (p0, entries) = kernel.outputs.split_at(self.n);
+        let (p0, entries) = kernel.outputs.split_at(self.derived.n);
         let rows: Vec<TokenStream> = match diagonals {
             Some(diagonals) => entries.chunks(diagonals).map(|row| quote!([#(#row),*])).collect(),
-            None => (0..self.n)
+            None => (0..self.derived.n)
                 .map(|i| {
-                    let row = (0..self.n).map(|j| &entries[j * self.n + i]);
+                    let row = (0..self.derived.n).map(|j| &entries[j * self.derived.n + i]);
                     quote!([#(#row),*])
                 })
                 .collect(),
         };
         let result = quote!(([#(#p0),*], [#(#rows),*]));
-        let ty = quote!((#vector, [MemberVector<#scalar, #width, #members>; #n]));
+        let ty = quote!((#vector, [#member_vector<#scalar, #width, #members>; #n]));
         let step_kernel = function("step_kernel_in_lanes", &kernel, result, ty);
-        let (p0, p1) = momenta.outputs.split_at(self.n);
+        let (p0, p1) = momenta.outputs.split_at(self.derived.n);
         let result = quote!([[#(#p0),*], [#(#p1),*]]);
         let momenta = function("momenta_in_lanes", &momenta, result, quote!([#vector; 2]));
-        Some(quote! {
+        quote! {
             #timed
 
             #gathered
@@ -82,6 +66,6 @@ impl Code<'_> {
             #step_kernel
 
             #momenta
-        })
+        }
     }
 }

@@ -11,7 +11,7 @@ use super::directions::Along;
 use super::kernel::{Equation, Parts};
 use super::*;
 
-impl Code<'_> {
+impl Deriving<'_> {
     pub(super) fn midpoint(&mut self, parts: &Parts) -> Equation {
         let half = self.graph.half_step();
         let (negative, one) = (self.graph.negated(half), self.graph.one());
@@ -35,13 +35,13 @@ impl Code<'_> {
         plus: Along,
         force_by_v: &[Vec<Node>],
     ) -> Vec<Node> {
-        self.matrix(|code, i, j| {
-            let entry = code.mixed(of, (i, direction), (j, plus));
+        self.matrix(|deriving, i, j| {
+            let entry = deriving.mixed(of, (i, direction), (j, plus));
             let force = force_by_v.get(i).map(|row| row[j]);
             match (force, direction.first) {
-                (Some(force), Some(share)) if code.graph.constant_value(force) != Some(0.0) => {
-                    let share = code.graph.times(share, force);
-                    Some(code.added(entry, share))
+                (Some(force), Some(share)) if deriving.graph.constant_value(force) != Some(0.0) => {
+                    let share = deriving.graph.times(share, force);
+                    Some(deriving.added(entry, share))
                 }
                 _ => entry,
             }
@@ -99,39 +99,5 @@ impl Code<'_> {
             total.insert(key, entry);
         }
         total
-    }
-
-    /// The code with h/2 and q̄ in front, as far as it reads them; `now` is the time at the start of the
-    /// step.
-    pub(super) fn at_midpoint(
-        &self,
-        line: &StraightLine,
-        now: &TokenStream,
-        given: fn([(bool, &str); 3]) -> Option<TokenStream>,
-        result: TokenStream,
-    ) -> TokenStream {
-        let uses_time = line.uses("t");
-        let half =
-            (line.uses_coordinates || line.uses("half") || uses_time).then(|| quote!(let half = 0.5 * h;));
-        let t = uses_time.then(|| quote!(let t = #now + half;));
-        let q = line.uses_coordinates.then(|| {
-            let index = (0..self.n).map(Literal::usize_unsuffixed);
-            let entries = index.map(|index| quote!(q0[#index] + half * v[#index]));
-            quote!(let q = [#(#entries),*];)
-        });
-        let given = given([
-            (q.is_some(), "q0"),
-            (q.is_some() || line.uses_velocities, "v"),
-            (half.is_some() || line.uses("h"), "h"),
-        ]);
-        let statements = &line.statements;
-        quote! {
-            #given
-            #half
-            #q
-            #t
-            #statements
-            #result
-        }
     }
 }

@@ -10,10 +10,10 @@ use super::super::graph::Point;
 use super::kernel::{Equation, Parts};
 use super::*;
 
-impl Code<'_> {
+impl Deriving<'_> {
     pub(super) fn trapezoidal(&mut self, parts: &Parts) -> Equation {
         let half = self.graph.half_step();
-        let end_time = self.system.timed.any().then(|| self.graph.written(quote!(t_end)));
+        let end_time = self.system.timed.any().then(|| self.graph.end_time());
         // The time at the start has the name that the bodies know.
         let [mut start, mut end] = [("q0", "start", None), ("q1", "end", end_time)]
             .map(|(q, name, time)| Point::new(name, self.coordinates(q, name), time));
@@ -30,11 +30,11 @@ impl Code<'_> {
             let share = by_q[1].map(|r_q| self.graph.times(half, r_q));
 
             // (h/2) (L_q + f ± (h/2) R_q) at one end.
-            let impulse = |code: &mut Self, end: &mut Point, share: Option<Node>| {
+            let impulse = |deriving: &mut Self, end: &mut Point, share: Option<Node>| {
                 let terms = [force, share].into_iter().flatten();
-                let sum = terms.reduce(|a, b| code.graph.plus(a, b))?;
-                let sum = code.graph.at(sum, end);
-                Some(code.graph.times(half, sum))
+                let sum = terms.reduce(|a, b| deriving.graph.plus(a, b))?;
+                let sum = deriving.graph.at(sum, end);
+                Some(deriving.graph.times(half, sum))
             };
             let before = impulse(self, &mut start, share).map(|impulse| self.graph.negated(impulse));
             let negative = share.map(|share| self.graph.negated(share));
@@ -45,35 +45,38 @@ impl Code<'_> {
                 momenta.push(self.or_zero(sum));
             }
         }
-        let matrix = self.matrix(|code, i, j| {
+        let matrix = self.matrix(|deriving, i, j| {
             let mut sum = None;
             for (of, is_rayleigh) in [(&parts.lagrangian, false), (&parts.rayleigh, true)] {
-                let second =
-                    code.second(of, (i, true), (j, true)).map(|entry| code.mean(entry, &mut start, &mut end));
-                let ahead =
-                    code.second(of, (i, true), (j, false)).map(|entry| code.graph.at(entry, &mut end));
-                let behind =
-                    code.second(of, (i, false), (j, true)).map(|entry| code.graph.at(entry, &mut start));
+                let second = deriving
+                    .second(of, (i, true), (j, true))
+                    .map(|entry| deriving.mean(entry, &mut start, &mut end));
+                let ahead = deriving
+                    .second(of, (i, true), (j, false))
+                    .map(|entry| deriving.graph.at(entry, &mut end));
+                let behind = deriving
+                    .second(of, (i, false), (j, true))
+                    .map(|entry| deriving.graph.at(entry, &mut start));
                 let skew = match (ahead, behind) {
                     (Some(ahead), Some(behind)) if ahead == behind => None,
-                    (Some(ahead), Some(behind)) => Some(code.graph.minus(ahead, behind)),
-                    (None, Some(behind)) => Some(code.graph.negated(behind)),
+                    (Some(ahead), Some(behind)) => Some(deriving.graph.minus(ahead, behind)),
+                    (None, Some(behind)) => Some(deriving.graph.negated(behind)),
                     (ahead, None) => ahead,
                 };
-                let skew = skew.map(|skew| code.graph.times(half, skew));
-                let Some(own) = [second, skew].into_iter().flatten().reduce(|a, b| code.graph.plus(a, b))
+                let skew = skew.map(|skew| deriving.graph.times(half, skew));
+                let Some(own) = [second, skew].into_iter().flatten().reduce(|a, b| deriving.graph.plus(a, b))
                 else {
                     continue;
                 };
-                let own = if is_rayleigh { code.graph.times(half, own) } else { own };
-                sum = Some(code.added(sum, own));
+                let own = if is_rayleigh { deriving.graph.times(half, own) } else { own };
+                sum = Some(deriving.added(sum, own));
             }
-            let variable = code.variable(j, true);
+            let variable = deriving.variable(j, true);
             if let Some(&by_v) = parts.rows.get(i).and_then(|row| row.get(&variable)) {
-                let by_v = code.graph.at(by_v, &mut start);
-                let share = code.graph.times(half, by_v);
-                let share = code.graph.negated(share);
-                sum = Some(code.added(sum, share));
+                let by_v = deriving.graph.at(by_v, &mut start);
+                let share = deriving.graph.times(half, by_v);
+                let share = deriving.graph.negated(share);
+                sum = Some(deriving.added(sum, share));
             }
             sum
         });
@@ -98,32 +101,5 @@ impl Code<'_> {
         }
         let sum = self.graph.plus(a, b);
         self.graph.scaled(0.5, sum)
-    }
-
-    /// The code with h/2 and q1 in front, as far as it reads them.
-    pub(super) fn at_both_ends(&self, line: &StraightLine, result: TokenStream) -> TokenStream {
-        let half = line.uses("half").then(|| quote!(let half = 0.5 * h;));
-        let q1 = line.uses("q1").then(|| {
-            let index = (0..self.n).map(Literal::usize_unsuffixed);
-            let entries = index.map(|index| quote!(q0[#index] + h * v[#index]));
-            quote!(let q1 = [#(#entries),*];)
-        });
-        let t = line.uses("t").then(|| quote!(let t = self.t;));
-        let t_end = line.uses("t_end").then(|| quote!(let t_end = self.t + h;));
-        let given = of_segment([
-            (q1.is_some() || line.uses("q0"), "q0"),
-            (q1.is_some() || line.uses_velocities, "v"),
-            (q1.is_some() || half.is_some() || t_end.is_some() || line.uses("h"), "h"),
-        ]);
-        let statements = &line.statements;
-        quote! {
-            #given
-            #half
-            #q1
-            #t
-            #t_end
-            #statements
-            #result
-        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 
-impl Code<'_> {
+impl Deriving<'_> {
     /// The gradient of each component.
     pub(super) fn rows(&mut self, components: &[Node]) -> Vec<Gradient> {
         components.iter().map(|&component| self.derivation.gradient(&mut self.graph, component)).collect()
@@ -37,9 +37,13 @@ impl Code<'_> {
         of.hessian.get(&(a.min(b), a.max(b))).copied()
     }
 
-    /// A block of the Hessian, column by column.
-    pub(super) fn block(&mut self, of: &Derivatives, row_velocity: bool, column_velocity: bool) -> Vec<Node> {
-        self.matrix(|code, i, j| code.second(of, (i, row_velocity), (j, column_velocity)))
+    /// The blocks qq, qv and vv of the Hessian.
+    pub(super) fn blocks(&mut self, of: &Derivatives) -> Vec<Node> {
+        [(false, false), (false, true), (true, true)]
+            .map(|(row_velocity, column_velocity)| {
+                self.matrix(|deriving, i, j| deriving.second(of, (i, row_velocity), (j, column_velocity)))
+            })
+            .concat()
     }
 
     /// The entries of an n×n matrix, column by column.

@@ -15,7 +15,26 @@ const MOST: usize = MOST_OPERATIONS / 8;
 /// The most operations that one function is asked about.
 const MOST_PLACES: usize = 64;
 
+/// The operations of L, R or a component of f that have no derivative at some arguments.
+pub struct Places {
+    pub part: Part,
+    /// The component of f.
+    pub index: usize,
+    pub places: Vec<Place>,
+    /// One or two for each operation.
+    pub arguments: Routine,
+}
+
 /// An operation that has no derivative at some arguments.
+pub struct Place {
+    /// Its name in the runtime.
+    pub name: &'static str,
+    /// The user's text.
+    pub text: String,
+    pub has_second: bool,
+}
+
+/// [`Place`] on a graph.
 struct Singular {
     /// Its name in the runtime.
     name: &'static str,
@@ -25,88 +44,34 @@ struct Singular {
     regular: f64,
 }
 
-impl Code<'_> {
-    /// `Lagrangian::place_without_derivative`, of the system and of its view if that has more functions;
-    /// nothing where no operation can lack a derivative.
-    pub(super) fn places(
-        &mut self,
-        lagrangian: Node,
-        rayleigh: Option<Node>,
-        force: Option<&[Node]>,
-    ) -> [Option<TokenStream>; 2] {
+impl Deriving<'_> {
+    /// The operations without a derivative, of the system and of its view if that has more functions.
+    pub(super) fn places(&mut self) -> [Vec<Places>; 2] {
         [Home::System, Home::View].map(|home| {
             let has = |part: Part| home == Home::View || self.system.home_of(part) == home;
             if home == Home::View && !self.system.has_view() {
-                return None;
+                return Vec::new();
             }
-            let [of_lagrangian, of_rayleigh, of_force] =
-                [Part::Lagrangian, Part::Rayleigh, Part::Force].map(has);
-            let mut functions = Vec::new();
-            functions.extend(of_lagrangian.then(|| (quote!(Lagrangian), lagrangian)));
-            functions.extend(rayleigh.filter(|_| of_rayleigh).map(|root| (quote!(Rayleigh), root)));
-            for (i, &root) in force.filter(|_| of_force).unwrap_or_default().iter().enumerate() {
-                let index = Literal::usize_unsuffixed(i);
-                functions.push((quote!(Force { index: #index }), root));
-            }
-            self.places_of(home, &functions)
+            let force = self.force.unwrap_or_default().iter().map(|&root| (Part::Force, root));
+            let parts = [(Part::Lagrangian, self.lagrangian)].into_iter();
+            let parts = parts.chain(self.rayleigh.map(|root| (Part::Rayleigh, root)));
+            let own: Vec<_> = parts.chain(force).filter(|&(part, _)| has(part)).collect();
+            let first = own.iter().position(|&(part, _)| part == Part::Force).unwrap_or_default();
+            let places = own.into_iter().enumerate().filter_map(|(i, (part, root))| {
+                let (places, arguments) = self.singular_operations(root);
+                if places.is_empty() {
+                    return None;
+                }
+                let arguments = self.made(Of::Arguments(part), home, &arguments).ok()?;
+                let index = if part == Part::Force { i - first } else { 0 };
+                Some(Places { part, index, places, arguments })
+            });
+            places.collect()
         })
     }
 
-    fn places_of(&mut self, home: Home, functions: &[(TokenStream, Node)]) -> Option<TokenStream> {
-        let (mut uses_coordinates, mut uses_velocities) = (false, false);
-        let mut arms = Vec::new();
-        for (function, root) in functions {
-            let (written, outputs) = self.singular_operations(*root);
-            if written.is_empty() {
-                continue;
-            }
-            let Ok(line) = self.code(home, &outputs) else { continue };
-            uses_coordinates |= line.uses_coordinates;
-            uses_velocities |= line.uses_velocities;
-            let mut values = line.outputs.iter();
-            let places = written.iter().filter_map(|(name, text, has_second)| {
-                let (name, s) = (format_ident!("{name}"), values.next()?);
-                let second = if *has_second { values.next()?.clone() } else { quote!(0.0) };
-                let written = quote! {
-                    &::dalembert::generated::Written {
-                        operation: ::dalembert::generated::Operation::#name,
-                        text: #text,
-                    }
-                };
-                Some(quote!((#written, [#s, #second])))
-            });
-            let statements = &line.statements;
-            arms.push(quote! {
-                ::dalembert::generated::Function::#function => {
-                    #statements
-                    ::dalembert::generated::Place::first(&[#(#places),*])
-                }
-            });
-        }
-        if arms.is_empty() {
-            return None;
-        }
-        let (q, v) = (parameter("q", uses_coordinates), parameter("v", uses_velocities));
-        Some(quote! {
-            /// The first operation that has no derivative there, as √s at s = 0.
-            #[cold]
-            fn place_without_derivative(
-                &self,
-                function: ::dalembert::generated::Function,
-                #q: &Vector,
-                #v: &Vector,
-            ) -> ::core::option::Option<::dalembert::generated::Place> {
-                match function {
-                    #(#arms)*
-                    _ => ::core::option::Option::None,
-                }
-            }
-        })
-    }
-
-    /// The operations that can lack a derivative, arguments first: their names, texts, and whether they have
-    /// two arguments; and the arguments.
-    fn singular_operations(&mut self, root: Node) -> (Vec<(&'static str, String, bool)>, Vec<Node>) {
+    /// The operations that can lack a derivative, arguments first; and the arguments.
+    fn singular_operations(&mut self, root: Node) -> (Vec<Place>, Vec<Node>) {
         let (mut written, mut outputs) = (Vec::new(), Vec::new());
         if self.graph.is_full() || self.graph.operations([root]) > MOST {
             return (written, outputs);
@@ -132,7 +97,8 @@ impl Code<'_> {
             let own = [argument].into_iter().chain(second);
             if !self.graph.is_conditional(own.clone()) {
                 outputs.extend(own);
-                written.push((name, self.graph.spelled(node, is_function), second.is_some()));
+                let text = self.graph.spelled(node, is_function);
+                written.push(Place { name, text, has_second: second.is_some() });
             }
         }
         (written, outputs)

@@ -10,41 +10,39 @@ mod stages;
 
 use quote::ToTokens;
 
-use super::super::emit::{Anchored, Field, number_of_members};
-use super::super::syntax::with_words;
+use super::super::super::emit::{Field, number_of_members};
+use super::super::super::syntax::with_words;
 use super::*;
-pub(super) use explicit::{ExplicitOutputs, TAKEN};
-pub(super) use midpoint::{MidpointOutputs, TAKEN_AT_MIDPOINT};
 
 /// Numbers and truth values of members, in one value that functions hand on:
 /// `([Members<f64, W>; 3], [Mask<W>; 1])`.
-struct OfMembers {
-    scalar: Ident,
+struct OfMembers<'t> {
+    text: &'t Text<'t>,
     /// W.
     members: Ident,
     numbers: Vec<Node>,
     truths: Vec<Node>,
 }
 
-impl OfMembers {
-    fn new(code: &Code<'_>, fields: impl IntoIterator<Item = (Node, bool)>) -> Self {
+impl<'t> OfMembers<'t> {
+    fn new(text: &'t Text<'t>, fields: impl IntoIterator<Item = (Node, bool)>) -> Self {
         let mut all: Vec<(Node, bool)> = fields.into_iter().collect();
         all.sort_unstable();
         all.dedup();
         let of =
             |truths: bool| all.iter().filter(move |(_, is_truth)| *is_truth == truths).map(|(node, _)| *node);
         Self {
-            scalar: code.system.scalar.clone(),
-            members: number_of_members(&code.graph),
+            text,
+            members: number_of_members(&text.derived.graph),
             numbers: of(false).collect(),
             truths: of(true).collect(),
         }
     }
 
     /// The fields of several lines: all that they have from before they run.
-    fn fields_of<'l>(code: &Code<'_>, lines: impl IntoIterator<Item = &'l StraightLine>) -> Self {
+    fn fields_of<'l>(text: &'t Text<'t>, lines: impl IntoIterator<Item = &'l StraightLine>) -> Self {
         let fields = lines.into_iter().flat_map(|line| &line.fields);
-        Self::new(code, fields.map(|field| (field.node, field.is_truth)))
+        Self::new(text, fields.map(|field| (field.node, field.is_truth)))
     }
 
     fn is_empty(&self) -> bool {
@@ -59,14 +57,11 @@ impl OfMembers {
 
     /// The type, with the number of members as parameter.
     fn ty(&self) -> TokenStream {
-        let (scalar, members) = (&self.scalar, &self.members);
-        tuple(self.groups().map(|(nodes, ty)| {
-            let length = Literal::usize_unsuffixed(nodes.len());
-            if ty == "Mask" {
-                quote!([Mask<#members>; #length])
-            } else {
-                quote!([Members<#scalar, #members>; #length])
-            }
+        let (scalar, members) = (&self.text.system.scalar, &self.members);
+        tuple(self.groups().map(|(nodes, name)| {
+            let (length, ty) = (Literal::usize_unsuffixed(nodes.len()), self.text.name(name));
+            let scalar = (name == "Members").then(|| quote!(#scalar,));
+            quote!([#ty<#scalar #members>; #length])
         }))
     }
 
@@ -104,76 +99,39 @@ impl OfMembers {
     }
 }
 
-impl Code<'_> {
-    /// The code on members for `outputs`, in a function with parameters of these names.
-    fn on_members(
-        &mut self,
-        outputs: &[Node],
-        taken: &[&str],
-        handed: &[Node],
-        anchored: Option<Anchored<'_>>,
-    ) -> StraightLine {
-        let taken = self.taken_with(taken);
-        let line = self.writing(&taken).members(outputs, handed, anchored);
-        let mut line = self.seen(self.system.home(), line);
-        line.fields.sort_by_key(|field| (field.is_truth, field.node));
-        self.calls_elementary |= line.calls_elementary;
-        line
-    }
-
-    /// The names of parameters, and what a view declares.
-    fn taken_with<'t>(&self, taken: &[&'t str]) -> Vec<&'t str> {
-        let of_view: &[&str] =
-            if self.system.home() == Home::View { &["u", "t", "now", "elapsed"] } else { &[] };
-        taken.iter().chain(of_view).copied().collect()
-    }
-
-    /// The code on numbers for `outputs`, which members compute too where they are stepped in lanes.
-    pub(super) fn members_code(
-        &mut self,
-        outputs: &[Node],
-        taken: &[&str],
-        is_in_lanes: bool,
-    ) -> StraightLine {
-        if !is_in_lanes {
-            return self.code_as_it_stands(self.system.home(), outputs, &[]);
-        }
-        let taken = self.taken_with(taken);
-        let line = self.writing(&taken).numbers_as_members(outputs);
-        self.calls_elementary |= line.calls_elementary;
-        self.seen(self.system.home(), line)
-    }
-
+impl Text<'_> {
     /// `type Fields` and the function that fills it; where there is a time, with the present one beside what
     /// is known, and the function that moves it.
-    fn gathered(&mut self, fields: &OfMembers) -> TokenStream {
+    fn gathered(&self, fields: &OfMembers<'_>) -> TokenStream {
         let (ty, members) = (fields.ty(), &fields.members);
-        let (scalar, is_timed) = (self.system.scalar.clone(), self.system.timed.any());
-        let mut of_each = |(nodes, group): (&[Node], &str)| {
-            let line = self.writing(&self.taken_with(&["systems", "system"])).numbers(nodes);
-            self.calls_elementary |= line.calls_elementary;
-            let line = self.seen(self.system.home(), line);
-            let group = format_ident!("{group}");
+        let (scalar, is_timed) = (&self.system.scalar, self.system.timed.any());
+        let home = self.system.home();
+        let of_view = if home == Home::View { OF_VIEW } else { &[] };
+        let taken = [&["systems", "system"], of_view].concat();
+        let of_each = |(nodes, group): (&[Node], &'static str)| {
+            let line = self.seen(home, self.writing(&taken).numbers(nodes), None);
+            let group = self.name(group);
             let outputs = line.outputs.into_iter().map(seen_from_member);
             let statements = seen_from_member(line.statements);
             let outputs = quote!([#(#outputs),*]);
             let outputs = if statements.is_empty() { outputs } else { quote!({ #statements #outputs }) };
             quote!(#group::of_each(systems.map(|system| #outputs)))
         };
-        let values = tuple(fields.groups().map(&mut of_each));
+        let values = tuple(fields.groups().map(of_each));
         let systems = parameter("systems", is_timed || !fields.is_empty());
         if is_timed {
+            let of = self.name("Members");
             return quote! {
-                type Fields<const #members: usize> = (#ty, Members<#scalar, #members>);
+                type Fields<const #members: usize> = (#ty, #of<#scalar, #members>);
 
                 fn fields<const #members: usize>(#systems: [&Self; #members]) -> Self::Fields<#members> {
-                    (#values, Members(systems.map(|system| system.t)))
+                    (#values, #of(systems.map(|system| system.t)))
                 }
 
                 #[inline(always)]
                 fn later_in_lanes<const #members: usize>(
                     fields: &Self::Fields<#members>,
-                    elapsed: &Members<#scalar, #members>,
+                    elapsed: &#of<#scalar, #members>,
                 ) -> Self::Fields<#members> {
                     let (known, t) = *fields;
                     (known, t + *elapsed)
@@ -187,15 +145,6 @@ impl Code<'_> {
                 #values
             }
         }
-    }
-}
-
-/// `()`, the one, or all of them in brackets.
-pub(super) fn tuple(parts: impl Iterator<Item = TokenStream>) -> TokenStream {
-    let parts: Vec<TokenStream> = parts.collect();
-    match &parts[..] {
-        [one] => one.clone(),
-        parts => quote!((#(#parts),*)),
     }
 }
 

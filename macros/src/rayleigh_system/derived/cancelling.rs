@@ -23,7 +23,7 @@ use super::*;
 
 /// How an expression is rounded: the larger includes the smaller.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Kind {
+enum Rounding {
     Vanishing,
     Nonzero,
     Cancelling,
@@ -33,7 +33,7 @@ enum Kind {
 /// is to be refused for their length.
 const MOST: usize = MOST_OPERATIONS / 8;
 
-impl Kind {
+impl Rounding {
     fn of_sum(self, other: Self) -> Self {
         if self == Self::Nonzero && other == Self::Nonzero { Self::Cancelling } else { self.max(other) }
     }
@@ -53,47 +53,27 @@ impl Kind {
     }
 }
 
-impl Code<'_> {
-    /// `ActingForce::cancelling_terms`; nothing where none can cancel, or where the equations are long.
-    pub(super) fn cancelling_terms(
-        &mut self,
-        lagrangian: Node,
-        rayleigh: Option<Node>,
-        force: Option<&[Node]>,
-    ) -> Option<TokenStream> {
-        let of_lagrangian = self.derivation.hessian(&mut self.graph, lagrangian, "l").gradient;
+impl Deriving<'_> {
+    /// Sizes of the terms that cancel; nothing where none can, or where the equations are long.
+    pub(super) fn cancelling_terms(&mut self) -> Option<Routine> {
+        let of_lagrangian = self.derivation.hessian(&mut self.graph, self.lagrangian, "l").gradient;
         let momenta = self.covector(&of_lagrangian, true);
-        let terms = [momenta, self.rates(&of_lagrangian, rayleigh, force)].concat();
+        let terms = [momenta, self.rates(&of_lagrangian)].concat();
         let sizes = self.sizes_of_cancelling(&terms)?;
-        let line = self.code(self.system.home(), &sizes).ok()?;
-        let [momentum, rate] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
-        let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
-        let (statements, scalar, n) = (&line.statements, &self.system.scalar, self.system.degrees.times(1));
-        Some(quote! {
-            /// Sizes of the terms that cancel in ∂L/∂v and in ∂L/∂q + f_L, at rest for instance.
-            #[cold]
-            fn cancelling_terms(
-                &self,
-                #q: &Vector,
-                #v: &Vector,
-            ) -> ::dalembert::generated::CancellingTerms<#scalar, #n> {
-                #statements
-                ::dalembert::generated::CancellingTerms { momentum: #momentum, rate: #rate }
-            }
-        })
+        self.made(Of::CancellingTerms, self.system.home(), &sizes).ok()
     }
 
     /// Sizes of the terms that cancel, for each of `roots`.
     fn sizes_of_cancelling(&mut self, roots: &[Node]) -> Option<Vec<Node>> {
         let kinds = self.kinds(roots);
-        let may_cancel = |root: &Node| kinds[root] == Kind::Cancelling;
+        let may_cancel = |root: &Node| kinds[root] == Rounding::Cancelling;
         let has_room = self.graph.len() < MOST_EXPRESSIONS / 2;
         if !roots.iter().any(may_cancel) || !has_room || self.graph.operations(roots.iter().copied()) > MOST {
             return None;
         }
         let mut sizes: HashMap<Node, Node> = HashMap::new();
         for node in self.graph.reachable(roots.iter().copied().filter(may_cancel)) {
-            if kinds[&node] != Kind::Vanishing
+            if kinds[&node] != Rounding::Vanishing
                 && let Some(size) = self.rounded_in(node, &sizes)
             {
                 sizes.insert(node, size);
@@ -104,7 +84,7 @@ impl Code<'_> {
     }
 
     /// The kinds of all that `roots` are made of.
-    fn kinds(&self, roots: &[Node]) -> HashMap<Node, Kind> {
+    fn kinds(&self, roots: &[Node]) -> HashMap<Node, Rounding> {
         let mut kinds = HashMap::new();
         for node in self.graph.reachable(roots.iter().copied()) {
             kinds.insert(node, self.kind(node, |argument| kinds[&argument]));
@@ -112,8 +92,8 @@ impl Code<'_> {
         kinds
     }
 
-    fn kind(&self, node: Node, of: impl Fn(Node) -> Kind) -> Kind {
-        use Kind::{Nonzero, Vanishing};
+    fn kind(&self, node: Node, of: impl Fn(Node) -> Rounding) -> Rounding {
+        use Rounding::{Nonzero, Vanishing};
         match self.graph.operation(node) {
             Operation::Coordinate(_) | Operation::Velocity(_) => Vanishing,
             _ if !self.graph.depends(node) => Nonzero,

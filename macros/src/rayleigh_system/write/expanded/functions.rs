@@ -1,0 +1,128 @@
+//! Functions at (q, v): derivatives of L, R, f and σ.
+
+use super::matrices::matrix;
+use super::*;
+
+impl Text<'_> {
+    /// The functions that are asked for; nothing where there is none.
+    pub(super) fn functions_of(&self, is_asked: impl Fn(Of) -> bool) -> Option<TokenStream> {
+        let asked = self.derived.functions.iter().filter(|function| is_asked(function.of));
+        let written: Vec<TokenStream> = asked.map(|function| self.function(function)).collect();
+        (!written.is_empty()).then(|| quote!(#(#written)*))
+    }
+
+    fn function(&self, function: &Routine) -> TokenStream {
+        use Shape::{Matrix, Scalar, Vector};
+        let line = self.line_at_present(function);
+        let (outputs, statements) = (&line.outputs, &line.statements);
+        let (scalar, n, m, p) = (
+            &self.system.scalar,
+            self.system.degrees.times(1),
+            self.system.inputs(),
+            self.system.parameter_count(),
+        );
+        let inline = Some(quote!(#[inline]));
+        let (attributes, name, ty, result) = match function.of {
+            Of::Gradient(part) => {
+                let [value, d1, d2] = self.parts(outputs, [Scalar, Vector, Vector]);
+                let result = quote!(Gradient { value: #value, d1: #d1, d2: #d2 });
+                let name = format!("{}_gradient", part.name());
+                (inlined(statements), name, quote!(Gradient<#scalar, #n>), result)
+            }
+            Of::Derivatives(part) => {
+                let [value, d1, d2, d11, d12, d22] =
+                    self.parts(outputs, [Scalar, Vector, Vector, Matrix, Matrix, Matrix]);
+                let result = quote! {
+                    Derivatives { value: #value, d1: #d1, d2: #d2, d11: #d11, d12: #d12, d22: #d22 }
+                };
+                let name = format!("{}_derivatives", part.name());
+                (inlined(statements), name, quote!(Derivatives<#scalar, #n>), result)
+            }
+            Of::Variations => {
+                let [minus, plus, mixed] = self.parts(outputs, [Vector, Vector, Matrix]);
+                let result = quote!(Variations { minus: #minus, plus: #plus, mixed: #mixed });
+                (inline, "lagrangian_variations".to_owned(), quote!(Variations<#scalar, #n>), result)
+            }
+            Of::ForceDerivatives => {
+                let [value, d1, d2] = self.parts(outputs, [Vector, Matrix, Matrix]);
+                let result = quote!(CovectorDerivatives { value: #value, d1: #d1, d2: #d2 });
+                let ty = quote!(CovectorDerivatives<#scalar, #n>);
+                (inlined(statements), "force_derivatives".to_owned(), ty, result)
+            }
+            Of::TimeScaleGradient => {
+                let [value, gradient] = self.parts(outputs, [Scalar, Vector]);
+                let ty = quote!((#scalar, Vector));
+                (None, "time_scale_gradient".to_owned(), ty, quote!((#value, #gradient)))
+            }
+            Of::ForceByInput => {
+                let ty = quote!(SMatrix<#scalar, #n, #m>);
+                (inline, "force_by_input".to_owned(), ty, matrix(outputs, self.derived.n))
+            }
+            Of::ByParameters(Part::Force) => {
+                let ty = quote!(SMatrix<#scalar, #n, #p>);
+                (inline, "force_by_parameters".to_owned(), ty, matrix(outputs, self.derived.n))
+            }
+            Of::ByParameters(part) => {
+                let (by_q, by_v) = outputs.split_at(outputs.len() / 2);
+                let [d1, d2] = [by_q, by_v].map(|entries| matrix(entries, self.derived.n));
+                let ty = quote!(GradientBy<#scalar, #n, #p>);
+                let result = quote!(GradientBy { d1: #d1, d2: #d2 });
+                (inline, format!("{}_by_parameters", part.name()), ty, result)
+            }
+            Of::Along(part) => {
+                let squares = 3 * self.derived.n * self.derived.n;
+                let [d11, d12, d22] = self.parts(&outputs[..squares], [Matrix, Matrix, Matrix]);
+                let by_input = self.hessian_by_input(&outputs[squares..]);
+                let result = quote!(Hessian { d11: #d11, d12: #d12, d22: #d22, #by_input });
+                (inline, format!("{}_along", part.name()), quote!(Hessian<#scalar, #n, #m>), result)
+            }
+            Of::CancellingTerms => {
+                let [momentum, rate] = self.parts(outputs, [Vector, Vector]);
+                let attributes = quote! {
+                    /// Sizes of the terms that cancel in ∂L/∂v and in ∂L/∂q + f_L, at rest for instance.
+                    #[cold]
+                };
+                let ty = quote!(::dalembert::generated::CancellingTerms<#scalar, #n>);
+                let result =
+                    quote!(::dalembert::generated::CancellingTerms { momentum: #momentum, rate: #rate });
+                (Some(attributes), "cancelling_terms".to_owned(), ty, result)
+            }
+            // Written elsewhere, with others.
+            _ => return TokenStream::new(),
+        };
+        let (name, q) = (format_ident!("{name}"), parameter("q", line.uses_coordinates));
+        let v = (function.of != Of::TimeScaleGradient).then(|| {
+            let v = parameter("v", line.uses_velocities);
+            quote!(#v: &Vector,)
+        });
+        let further: (&[&str], _) = match function.of {
+            Of::Variations => (&["minus", "plus"], quote!(Direction<#scalar>)),
+            Of::Along(Part::Force) => (&["vector"], quote!(&Vector)),
+            Of::Along(_) => (&["a", "b"], quote!(&Vector)),
+            _ => (&[], quote!()),
+        };
+        let (names, of) = (further.0.iter().map(|name| parameter(name, line.uses(name))), further.1);
+        quote! {
+            #attributes
+            fn #name(&self, #q: &Vector, #v #(#names: #of),*) -> #ty {
+                #statements
+                #result
+            }
+        }
+    }
+
+    /// The blocks of a Hessian with u, of columns by (q, v, u).
+    fn hessian_by_input(&self, entries: &[TokenStream]) -> TokenStream {
+        if entries.is_empty() {
+            return quote!(..Hessian::zero());
+        }
+        let (n, m) = (self.derived.n, self.derived.m);
+        let columns: Vec<_> = entries.chunks(2 * n + m).collect();
+        let [d1u, d2u, duu] = [0..n, n..2 * n, 2 * n..2 * n + m].map(|rows| {
+            let entries: Vec<_> =
+                columns.iter().flat_map(|column| column[rows.clone()].iter().cloned()).collect();
+            matrix(&entries, rows.len())
+        });
+        quote!(d1u: #d1u, d2u: #d2u, duu: #duu)
+    }
+}

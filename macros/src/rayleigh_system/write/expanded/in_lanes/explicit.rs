@@ -1,0 +1,55 @@
+//! Explicit steps of several members: the functions of `Explicit` on members.
+
+use super::*;
+
+impl Text<'_> {
+    /// The functions of `ExplicitInLanes`.
+    pub(in super::super) fn explicit_in_lanes(&self, functions: &[Routine; 2]) -> TokenStream {
+        let [momenta, force] = functions.each_ref().map(|function| self.line(function));
+        let fields = OfMembers::fields_of(self, [&force, &momenta]);
+        let is_timed = self.system.timed.any();
+        let gathered = self.gathered(&fields);
+        let (vector, scalar, n, members) =
+            (self.name("MemberVector"), &self.system.scalar, self.system.degrees.times(1), &fields.members);
+        let vector = quote!(#vector<#scalar, #n, #members>);
+
+        let (apart, statements) = (fields.read_by(&momenta, is_timed, "t"), &momenta.statements);
+        let half = momenta.half();
+        let of_fields = parameter("fields", apart.is_some());
+        let (v, h) =
+            (parameter("v", momenta.uses_velocities), parameter("h", half.is_some() || momenta.uses("h")));
+        let (p0, p1) = momenta.outputs.split_at(self.derived.n);
+        let velocity_momenta = quote! {
+            #[inline(always)]
+            fn velocity_momenta_in_lanes<const #members: usize>(
+                #of_fields: &Self::Fields<#members>,
+                #v: &#vector,
+                #h: #scalar,
+            ) -> [#vector; 2] {
+                #apart
+                #half
+                #statements
+                [[#(#p0),*], [#(#p1),*]]
+            }
+        };
+
+        let (apart, statements) = (fields.read_by(&force, is_timed, "t"), &force.statements);
+        let of_fields = parameter("fields", apart.is_some());
+        let (q, outputs) = (parameter("q", force.uses_coordinates), &force.outputs);
+        quote! {
+            #gathered
+
+            #velocity_momenta
+
+            #[inline(always)]
+            fn configuration_force_in_lanes<const #members: usize>(
+                #of_fields: &Self::Fields<#members>,
+                #q: &#vector,
+            ) -> #vector {
+                #apart
+                #statements
+                [#(#outputs),*]
+            }
+        }
+    }
+}
