@@ -11,7 +11,7 @@ mod conditions;
 mod contexts;
 mod decide;
 mod depth;
-mod derived;
+pub mod derived;
 pub mod diagnostics;
 pub mod differentiate;
 mod dual;

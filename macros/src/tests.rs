@@ -12,3 +12,4 @@ mod oracle;
 mod refusals;
 mod sizes;
 mod snapshots;
+mod tape;

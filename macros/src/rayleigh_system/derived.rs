@@ -24,7 +24,7 @@ use super::differentiate::{Derivatives, Differentiation, Gradient};
 use super::graph::{Graph, MOST_OPERATIONS, Node, Operation, Taken};
 use super::lower::{Length, Load, Lowered, Refusal};
 use super::model::{Home, Part, System};
-use super::rules::Points;
+pub use super::rules::Points;
 use super::structure::{self, Differentiated, Findings, Terms};
 pub use kernel::{Explicit, Kernel};
 pub use missing::Places;

@@ -31,13 +31,13 @@ impl Random {
         (self.bits() % n as u64) as usize
     }
 
-    fn unit(&mut self) -> f64 {
+    pub(super) fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
 
 /// An expression that can be written and evaluated over num-dual's numbers.
-enum Expression {
+pub(super) enum Expression {
     Variable(usize),
     Constant(f64),
     Binary(char, Box<Self>, Box<Self>),
@@ -58,7 +58,7 @@ enum Expression {
 use Expression::*;
 
 impl Expression {
-    fn random(random: &mut Random, depth: usize) -> Self {
+    pub(super) fn random(random: &mut Random, depth: usize) -> Self {
         let part = |random: &mut Random| Box::new(Self::random(random, depth.saturating_sub(1)));
         if depth == 0 {
             return match random.below(5) {
@@ -91,7 +91,7 @@ impl Expression {
         }
     }
 
-    fn text(&self) -> String {
+    pub(super) fn text(&self) -> String {
         match self {
             Variable(index @ 0..=1) => format!("q[{index}]"),
             Variable(index) => format!("v[{}]", index - 2),

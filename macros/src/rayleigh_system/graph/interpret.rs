@@ -1,4 +1,4 @@
-//! Graphs evaluated on numbers: what the emitted code computes, without compiling it.
+//! A tape: graphs evaluated on numbers, which is what the emitted code computes, without compiling it.
 
 use super::{Comparison, Function, Graph, Node, Operation, PairFunction, Predicate};
 
@@ -8,6 +8,21 @@ pub fn values(
     graph: &Graph,
     roots: &[Node],
     [q, v]: [&[f64]; 2],
+    rounded: impl FnMut(f64) -> f64,
+) -> Vec<f64> {
+    let given = |operation| match operation {
+        Operation::Coordinate(i) => q[i],
+        Operation::Velocity(i) => v[i],
+        other => panic!("{other:?} has no value here"),
+    };
+    values_of(graph, roots, given, rounded)
+}
+
+/// [`values`] where what is no computation has the value that is `given`.
+pub fn values_of(
+    graph: &Graph,
+    roots: &[Node],
+    given: impl Fn(Operation) -> f64,
     mut rounded: impl FnMut(f64) -> f64,
 ) -> Vec<f64> {
     let mut values = vec![f64::NAN; graph.len()];
@@ -15,10 +30,10 @@ pub fn values(
         let at = |node: Node| values[node.index()];
         let truth = |truth: bool| f64::from(u8::from(truth));
         values[node.index()] = match graph.operation(node) {
-            Operation::Coordinate(i) => q[i],
-            Operation::Velocity(i) => v[i],
-            Operation::Input(i) => panic!("input {i} has no value here"),
-            Operation::Parameter(i) => panic!("parameter {i} has no value here"),
+            given_one @ (Operation::Coordinate(_)
+            | Operation::Velocity(_)
+            | Operation::Input(_)
+            | Operation::Parameter(_)) => given(given_one),
             Operation::Constant(bits) => f64::from_bits(bits),
             Operation::Add(a, b) => at(a) + at(b),
             Operation::Subtract(a, b) => at(a) - at(b),
@@ -68,6 +83,8 @@ pub fn values(
             graph.operation(node),
             Operation::Coordinate(_)
                 | Operation::Velocity(_)
+                | Operation::Input(_)
+                | Operation::Parameter(_)
                 | Operation::Constant(_)
                 | Operation::Select(..)
         );
@@ -78,7 +95,8 @@ pub fn values(
     roots.iter().map(|root| values[root.index()]).collect()
 }
 
-fn elementary(function: Function, x: f64) -> f64 {
+/// The elementary function at x.
+pub fn elementary(function: Function, x: f64) -> f64 {
     match function {
         Function::Recip => x.recip(),
         Function::Exp => x.exp(),
