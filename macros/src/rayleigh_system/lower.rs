@@ -8,6 +8,7 @@
 mod access;
 mod call;
 mod choice;
+mod class;
 mod conversion;
 mod expression;
 mod field;
@@ -38,7 +39,7 @@ use syn::Ident;
 
 use super::graph::{Graph, Node, Operation};
 use super::model::{Part, RayleighArguments, Source, System};
-use integer::Classes;
+use class::Classes;
 pub use load::{Length, Load};
 pub use refusal::Refusal;
 use refusal::{Result, refuse};

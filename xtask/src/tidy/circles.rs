@@ -21,7 +21,6 @@ use tree::{Tree, Uses};
 const KNOWN: &[&str] = &[
     "c: {boundary, machine, parameters}",
     "fmu: {cosimulation, derivatives, saved}",
-    "macros/rayleigh_system/lower: {integer, value}",
     "python/binding: {checks, events, motion, offer, record, system}",
     "python/binding: {class, ensemble}",
     "python/binding: {many, model}",

@@ -4,7 +4,7 @@ use quote::{ToTokens, quote};
 use syn::{Expr, ExprRange, Member, RangeLimits};
 
 use super::super::diagnostics::span_of;
-use super::integer::Integer;
+use super::class::Integer;
 use super::value::Value;
 use super::written::Written;
 use super::{Lowering, Result, refuse};
@@ -96,7 +96,7 @@ impl Lowering<'_> {
         let end = range.end.as_deref().map(|end| self.bound(end)).transpose()?;
         let is_closed = matches!(range.limits, RangeLimits::Closed(_));
         if let (Some(start), Some(end)) = (start, end) {
-            self.unify(start.class, end.class)?;
+            self.integers.unify(start.class, end.class)?;
         }
         let known = |this: &mut Self, value: usize| match this.integer(range, value as i128, None)? {
             Value::Integer(integer) => Ok(integer),

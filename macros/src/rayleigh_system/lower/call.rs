@@ -7,7 +7,7 @@ use quote::ToTokens;
 use syn::{Block, FnArg, GenericParam, Ident, ImplItem, ImplItemFn, Pat, ReturnType, Type};
 
 use super::super::model::Source;
-use super::integer::IntegerType;
+use super::class::IntegerType;
 use super::value::{Closure, Value};
 use super::{Leaving, Lowering, Result, Returned, refuse};
 

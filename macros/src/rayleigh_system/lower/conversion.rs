@@ -5,7 +5,7 @@ use syn::spanned::Spanned;
 use syn::{Expr, ExprCall, ExprCast, GenericArgument, PathArguments, Type};
 
 use super::super::syntax::{is_plain, simple_name};
-use super::integer::{Integer, IntegerType};
+use super::class::{Integer, IntegerType};
 use super::module::not_known;
 use super::value::{Truth, Value};
 use super::written::Written;

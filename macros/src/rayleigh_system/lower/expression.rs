@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
 use syn::{Expr, ExprPath, Lit, Type};
 
-use super::integer::IntegerType;
+use super::class::IntegerType;
 use super::place::may_assign;
 use super::value::{Truth, Value};
 use super::written::Written;

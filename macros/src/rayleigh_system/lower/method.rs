@@ -7,7 +7,7 @@ use super::super::diagnostics::span_of;
 use super::super::differentiate::extremum;
 use super::super::graph::{Comparison, Function, Operation, PairFunction, Predicate};
 use super::super::syntax::{METHODS, ROUNDING, jumps};
-use super::integer::IntegerType;
+use super::class::IntegerType;
 use super::operator::Operands;
 use super::value::{Truth, Value};
 use super::{Lowering, Node, Refusal, Result, refuse};

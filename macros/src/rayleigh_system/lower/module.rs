@@ -4,7 +4,7 @@
 use proc_macro2::Ident;
 use syn::ExprPath;
 
-use super::integer::IntegerType;
+use super::class::IntegerType;
 use super::value::Value;
 use super::written::Written;
 use super::{Lowering, Result, refuse};

@@ -4,7 +4,7 @@
 use syn::{Expr, ExprCall, ExprForLoop, ExprMethodCall, Ident, Pat};
 
 use super::super::syntax::{is_self, without_parentheses};
-use super::integer::IntegerType;
+use super::class::IntegerType;
 use super::place::Place;
 use super::value::Value;
 use super::{Lowering, Result, refuse};

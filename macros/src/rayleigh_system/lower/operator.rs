@@ -7,7 +7,7 @@ use syn::{BinOp, Expr, ExprBinary, ExprLit, ExprUnary, Lit, UnOp};
 use super::super::diagnostics::span_of;
 use super::super::graph::{Comparison, Operation};
 use super::super::syntax::without_parentheses;
-use super::integer::Integer;
+use super::class::Integer;
 use super::value::{Truth, Value};
 use super::written::Written;
 use super::{Lowering, Node, Result, refuse};

@@ -5,7 +5,7 @@ use syn::{BinOp, Expr, ExprMethodCall, Type, parse_quote};
 
 use super::super::graph::Operation;
 use super::super::syntax::is_self;
-use super::integer::IntegerType;
+use super::class::IntegerType;
 use super::operator::Operands;
 use super::value::{Truth, Value};
 use super::{Lowering, Node, Result, refuse};

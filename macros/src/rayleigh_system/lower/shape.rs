@@ -5,7 +5,7 @@ use std::rc::Rc;
 use syn::{Expr, ExprLit, Ident, Lit, Type};
 
 use super::super::syntax::simple_name;
-use super::integer::IntegerType;
+use super::class::IntegerType;
 use super::value::{Chosen, Value};
 use super::{Lowering, MAX_NODES, Result, refuse};
 

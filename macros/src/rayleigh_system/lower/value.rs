@@ -7,7 +7,7 @@ use proc_macro2::TokenStream;
 use syn::{Expr, Ident, Pat, Type};
 
 use super::super::graph::{Graph, Node, Operation};
-use super::integer::Integer;
+use super::class::Integer;
 use super::written::Written;
 
 /// A value of a body.

@@ -4,9 +4,9 @@ use proc_macro2::Ident;
 use quote::ToTokens;
 use syn::{BinOp, LitInt};
 
+use super::super::class::{Integer, IntegerType, LEAST_WIDTH};
 use super::super::value::{Truth, Value};
 use super::super::{Lowering, Result, refuse};
-use super::{Integer, IntegerType, LEAST_WIDTH};
 
 impl Lowering<'_> {
     /// `left operator right` of integers.
@@ -21,7 +21,7 @@ impl Lowering<'_> {
         if let BinOp::Shl(_) | BinOp::Shr(_) = operator {
             return self.shifted(at, operator, left, right);
         }
-        self.unify(left.class, right.class)?;
+        self.integers.unify(left.class, right.class)?;
         let known = |truth| Ok(Value::Truth(Truth::Known(truth)));
         let result = match operator {
             BinOp::Add(_) => a.checked_add(b),
@@ -147,7 +147,7 @@ impl Lowering<'_> {
             self.of_type(exponent.class, IntegerType::U32)?;
         } else {
             for other in &numbers {
-                self.unify(class, other.class)?;
+                self.integers.unify(class, other.class)?;
             }
         }
         let others: Vec<i128> = numbers.iter().map(|number| number.value).collect();

@@ -8,7 +8,7 @@ use syn::visit::{self, Visit};
 use syn::visit_mut::{self, VisitMut};
 use syn::{Expr, ExprPath, Ident, Lit, Pat, PatIdent, Path, RangeLimits};
 
-use super::super::integer::{Integer, IntegerType};
+use super::super::class::{Integer, IntegerType};
 use super::super::operator::literal;
 use super::super::value::{Truth, Value};
 use super::super::written::{Arm, Leaf, Text, Written};
@@ -65,7 +65,7 @@ impl Lowering<'_> {
             (Pat::Range(range), Value::Integer(value)) => {
                 let mut known = |bound: &Expr| match self.expression(bound)? {
                     Value::Integer(bound) => {
-                        self.unify(bound.class, value.class)?;
+                        self.integers.unify(bound.class, value.class)?;
                         Ok(bound.value)
                     }
                     _ => refuse(bound, "only integers known at compile time can bound a pattern here"),
@@ -174,7 +174,7 @@ impl Lowering<'_> {
     fn test_constant(&mut self, at: &Pat, path: &ExprPath, value: Integer) -> Result<Test> {
         let truth = match self.expression(&Expr::Path(path.clone()))? {
             Value::Integer(constant) => {
-                self.unify(constant.class, value.class)?;
+                self.integers.unify(constant.class, value.class)?;
                 Truth::Known(constant.value == value.value)
             }
             Value::Written(_) => {
