@@ -18,6 +18,7 @@ use proc_macro2::TokenStream;
 use quote::format_ident;
 use syn::Ident;
 
+use super::derived::Kind;
 use super::graph::{Graph, Node, Operation, before_the_run};
 use expression::{Writer, partner};
 pub use inlined::{inlined, inlined_on_lanes};
@@ -30,7 +31,7 @@ const DEEPEST: u32 = 64;
 /// Straight-line code: statements, then one expression for each output.
 pub struct StraightLine {
     pub statements: TokenStream,
-    /// Statements that read the late parameters of [`Writing::lanes`]; none in other code.
+    /// Statements that read the late parameters of [`Kind::Lanes`]; none in other code.
     pub later: TokenStream,
     pub outputs: Vec<TokenStream>,
     /// Whether q occurs.
@@ -83,197 +84,158 @@ pub struct Writing<'t> {
 impl Writing<'_> {
     /// The code for `outputs`. q, v and u are read as `q[0]`, `v[0]`, `u[0]`.
     pub fn numbers(self, outputs: &[Node]) -> StraightLine {
-        written(self, outputs, Kind::Numbers)
+        self.written(outputs, &Kind::Numbers)
     }
 
-    /// [`numbers`](Self::numbers) with the functions that [`members`](Self::members) has, so that both
-    /// compute the same numbers.
-    pub fn numbers_as_members(self, outputs: &[Node]) -> StraightLine {
-        written(self, outputs, Kind::NumbersAsMembers)
-    }
-
-    /// The code for `outputs` over `Real<D>`, q, v, u and the time being such numbers; fields and constants
-    /// are lifted.
-    pub fn duals(self, outputs: &[Node]) -> StraightLine {
-        written(self, outputs, Kind::Duals)
-    }
-
-    /// The code for `outputs` where q, v and the time are lanes. The parameters `late` are lanes as well, and
-    /// known only after the statements that do not need them.
-    pub fn lanes(self, outputs: &[Node], late: &[Node], anchored: Anchored<'_>) -> StraightLine {
-        written(self, outputs, Kind::Lanes(late, anchored))
-    }
-
-    /// The code for `outputs` where q, v and what is made of fields alone are those of several members at
-    /// once; and what is `handed` over, which is not computed again.
-    pub fn members(self, outputs: &[Node], handed: &[Node], anchored: Option<Anchored<'_>>) -> StraightLine {
-        written(self, outputs, Kind::Members(handed, anchored))
-    }
-}
-
-/// Code of sweeps: sine and cosine are `angles[0].sin_cos(q[0])`, and these reciprocals
-/// `reciprocals[0].of(x)`.
-#[derive(Clone, Copy)]
-pub struct Anchored<'l>(pub &'l [Node]);
-
-/// The numbers that the code computes with.
-#[derive(Clone, Copy)]
-enum Kind<'l> {
-    Numbers,
-    /// Numbers, by the functions of members.
-    NumbersAsMembers,
-    /// Lanes, some of them late.
-    Lanes(&'l [Node], Anchored<'l>),
-    /// Numbers of several members, some of them handed over.
-    Members(&'l [Node], Option<Anchored<'l>>),
-    Duals,
-}
-
-fn written(writing: Writing<'_>, outputs: &[Node], kind: Kind<'_>) -> StraightLine {
-    let Writing { graph, scalar, taken, is_portable } = writing;
-    let is_dual = matches!(kind, Kind::Duals);
-    let (late, lanes) = match kind {
-        Kind::Lanes(late, _) => (Some(late), number_of_stages(graph)),
-        Kind::Members(..) => (Some(&[][..]), number_of_members(graph)),
-        Kind::Numbers | Kind::NumbersAsMembers | Kind::Duals => (None, number_of_stages(graph)),
-    };
-    let mut nodes = graph.reachable(outputs.iter().copied());
-    let (is_constant, reads) = before_the_run(graph, &nodes, taken);
-    let is_known: Vec<bool> = match kind {
-        Kind::Members(handed, _) => {
-            let is_field = |node: &Node| is_constant[node.index()] && reads[node.index()];
-            graph.nodes().map(|node| is_field(&node) || handed.contains(&node)).collect()
-        }
-        _ => vec![false; graph.len()],
-    };
-    if matches!(kind, Kind::Members(..)) {
-        nodes = graph.reachable_before(outputs.iter().copied(), |node| is_known[node.index()]);
-    }
-    let mut uses = vec![0_u32; graph.len()];
-    for &node in nodes.iter().filter(|node| !is_known[node.index()]) {
-        for argument in graph.operation(node).arguments() {
-            uses[argument.index()] += 1;
-        }
-    }
-    for output in outputs {
-        uses[output.index()] += 1;
-    }
-    let mut writer = Writer {
-        graph,
-        scalar,
-        locals: vec![None; graph.len()],
-        names: Names::new(graph, taken),
-        typed: vec![false; graph.len()],
-        is_portable,
-        calls_elementary: Cell::new(false),
-        is_lanes: vec![false; graph.len()],
-        lanes: if matches!(kind, Kind::Members(..)) { "Members" } else { "Lanes" },
-        runtime: RefCell::default(),
-        stages: lanes,
-        is_dual,
-        anchored: match kind {
-            Kind::Lanes(_, anchored) | Kind::Members(_, Some(anchored)) => Some(anchored.0),
-            _ => None,
-        },
-        anchors: [0; 2],
-        is_branch_free: match kind {
-            Kind::NumbersAsMembers => is_constant.iter().map(|is_constant| !is_constant).collect(),
-            _ => vec![false; graph.len()],
-        },
-        is_condition: conditions(graph, &nodes),
-    };
-    // Vectors that functions on members are handed: their entries are numbers of members.
-    let is_of_members = |operation: Operation| matches!((kind, operation), (Kind::Members(..), Operation::Parameter(index)) if graph.parameter(index).is_entry());
-    let mut receives = vec![false; graph.len()];
-    for receiver in nodes.iter().filter_map(|&node| graph.operation(node).receiver()) {
-        receives[receiver.index()] = true;
-    }
-    let mut is_late = vec![false; graph.len()];
-    let mut depths = vec![0_u32; graph.len()];
-    let (mut statements, mut later) = (TokenStream::new(), TokenStream::new());
-    let (mut uses_coordinates, mut uses_velocities, mut uses_inputs) = (false, false, false);
-    let mut parameters = Vec::new();
-    let mut fields = Vec::new();
-    for &node in nodes.iter().filter(|node| is_known[node.index()]) {
-        let name = writer.names.of(graph, node, &writer.locals);
-        writer.locals[node.index()] = Some(name.clone());
-        writer.is_lanes[node.index()] = true;
-        let is_truth = writer.is_condition[node.index()] || graph.operation(node).is_truth();
-        fields.push(Field { node, name, is_truth });
-    }
-    for &node in nodes.iter().filter(|node| !is_known[node.index()]) {
-        let operation = graph.operation(node);
-        writer.typed[node.index()] = match operation {
-            Operation::Constant(_) => is_dual,
-            Operation::Coordinate(_)
-            | Operation::Velocity(_)
-            | Operation::Input(_)
-            | Operation::Parameter(_) => true,
-            Operation::Select(_, a, b) => writer.typed[a.index()] || writer.typed[b.index()],
-            operation if operation.receiver().is_some() => true,
-            operation => operation.arguments().any(|argument| writer.typed[argument.index()]),
+    /// [`numbers`](Self::numbers) of another kind.
+    pub fn written(self, outputs: &[Node], kind: &Kind) -> StraightLine {
+        let Writing { graph, scalar, taken, is_portable } = self;
+        let is_dual = matches!(kind, Kind::Duals);
+        let (late, lanes) = match kind {
+            Kind::Lanes { late, .. } => (Some(&late[..]), number_of_stages(graph)),
+            Kind::Members { .. } => (Some(&[][..]), number_of_members(graph)),
+            Kind::Numbers | Kind::NumbersAsMembers | Kind::Duals => (None, number_of_stages(graph)),
         };
-        if let Some(late) = late {
-            is_late[node.index()] =
-                late.contains(&node) || operation.arguments().any(|argument| is_late[argument.index()]);
-            // Inputs and what derivatives are taken by on request are numbers.
-            writer.is_lanes[node.index()] |= is_late[node.index()]
-                || matches!(operation, Operation::Coordinate(_) | Operation::Velocity(_))
-                || graph.is_time(operation)
-                || is_of_members(operation)
-                || operation.arguments().any(|argument| writer.is_lanes[argument.index()]);
-        }
-        match operation {
-            Operation::Coordinate(_) => uses_coordinates = true,
-            Operation::Velocity(_) => uses_velocities = true,
-            Operation::Input(_) => uses_inputs = true,
-            Operation::Parameter(index) => {
-                parameters.extend(
-                    graph.parameter(index).tokens.clone().into_iter().next().map(|word| word.to_string()),
-                );
+        let mut nodes = graph.reachable(outputs.iter().copied());
+        let (is_constant, reads) = before_the_run(graph, &nodes, taken);
+        let is_known: Vec<bool> = match kind {
+            Kind::Members { handed, .. } => {
+                let is_field = |node: &Node| is_constant[node.index()] && reads[node.index()];
+                graph.nodes().map(|node| is_field(&node) || handed.contains(&node)).collect()
             }
-            _ => {}
-        }
-        let is_leaf = match operation {
-            // A local already.
-            Operation::Parameter(index) => graph.parameter(index).is_in_place(),
-            operation => operation.is_literal(),
+            _ => vec![false; graph.len()],
         };
-        let is_paired = partner(graph, node, &nodes).is_some();
-        // `(1.5 + 0.5).ln()` has no type: a local says it.
-        let needs_type = receives[node.index()] && !writer.typed[node.index()];
-        let is_single = !is_paired
-            && writer.anchor(node).is_none()
-            && !needs_type
-            && uses[node.index()] <= 1
-            && !matches!(operation, Operation::Select(..))
-            && !matches!(operation, Operation::Parameter(index) if graph.parameter(index).is_apart())
-            && (graph.name(node).is_none() || matches!(operation, Operation::Parameter(_)));
-        let depth = operation.arguments().map(|argument| depths[argument.index()] + 1).max().unwrap_or(0);
-        if is_leaf || (is_single && depth < DEEPEST) || writer.locals[node.index()].is_some() {
-            depths[node.index()] = if is_leaf || is_single { depth } else { 0 };
-            continue;
+        if matches!(kind, Kind::Members { .. }) {
+            nodes = graph.reachable_before(outputs.iter().copied(), |node| is_known[node.index()]);
         }
-        let statement = writer.statement(node, &nodes);
-        if is_late[node.index()] { later.extend(statement) } else { statements.extend(statement) }
-    }
-    let outputs = outputs
-        .iter()
-        .map(|&node| if late.is_some() { writer.lanes(node) } else { writer.expression(node).tokens })
-        .collect();
-    let calls_elementary = writer.calls_elementary.get();
-    StraightLine {
-        statements,
-        later,
-        outputs,
-        uses_coordinates,
-        uses_velocities,
-        uses_inputs,
-        calls_elementary,
-        names: writer.runtime.into_inner(),
-        fields,
-        anchors: writer.anchors,
-        parameters,
+        let mut uses = vec![0_u32; graph.len()];
+        for &node in nodes.iter().filter(|node| !is_known[node.index()]) {
+            for argument in graph.operation(node).arguments() {
+                uses[argument.index()] += 1;
+            }
+        }
+        for output in outputs {
+            uses[output.index()] += 1;
+        }
+        let mut writer = Writer {
+            graph,
+            scalar,
+            locals: vec![None; graph.len()],
+            names: Names::new(graph, taken),
+            typed: vec![false; graph.len()],
+            is_portable,
+            calls_elementary: Cell::new(false),
+            is_lanes: vec![false; graph.len()],
+            lanes: if matches!(kind, Kind::Members { .. }) { "Members" } else { "Lanes" },
+            runtime: RefCell::default(),
+            stages: lanes,
+            is_dual,
+            anchored: match kind {
+                Kind::Lanes { reciprocals, .. } | Kind::Members { reciprocals: Some(reciprocals), .. } => {
+                    Some(&reciprocals[..])
+                }
+                _ => None,
+            },
+            anchors: [0; 2],
+            is_branch_free: match kind {
+                Kind::NumbersAsMembers => is_constant.iter().map(|is_constant| !is_constant).collect(),
+                _ => vec![false; graph.len()],
+            },
+            is_condition: conditions(graph, &nodes),
+        };
+        // Vectors that functions on members are handed: their entries are numbers of members.
+        let is_of_members = |operation: Operation| matches!((kind, operation), (Kind::Members { .. }, Operation::Parameter(index)) if graph.parameter(index).is_entry());
+        let mut receives = vec![false; graph.len()];
+        for receiver in nodes.iter().filter_map(|&node| graph.operation(node).receiver()) {
+            receives[receiver.index()] = true;
+        }
+        let mut is_late = vec![false; graph.len()];
+        let mut depths = vec![0_u32; graph.len()];
+        let (mut statements, mut later) = (TokenStream::new(), TokenStream::new());
+        let (mut uses_coordinates, mut uses_velocities, mut uses_inputs) = (false, false, false);
+        let mut parameters = Vec::new();
+        let mut fields = Vec::new();
+        for &node in nodes.iter().filter(|node| is_known[node.index()]) {
+            let name = writer.names.of(graph, node, &writer.locals);
+            writer.locals[node.index()] = Some(name.clone());
+            writer.is_lanes[node.index()] = true;
+            let is_truth = writer.is_condition[node.index()] || graph.operation(node).is_truth();
+            fields.push(Field { node, name, is_truth });
+        }
+        for &node in nodes.iter().filter(|node| !is_known[node.index()]) {
+            let operation = graph.operation(node);
+            writer.typed[node.index()] = match operation {
+                Operation::Constant(_) => is_dual,
+                Operation::Coordinate(_)
+                | Operation::Velocity(_)
+                | Operation::Input(_)
+                | Operation::Parameter(_) => true,
+                Operation::Select(_, a, b) => writer.typed[a.index()] || writer.typed[b.index()],
+                operation if operation.receiver().is_some() => true,
+                operation => operation.arguments().any(|argument| writer.typed[argument.index()]),
+            };
+            if let Some(late) = late {
+                is_late[node.index()] =
+                    late.contains(&node) || operation.arguments().any(|argument| is_late[argument.index()]);
+                // Inputs and what derivatives are taken by on request are numbers.
+                writer.is_lanes[node.index()] |= is_late[node.index()]
+                    || matches!(operation, Operation::Coordinate(_) | Operation::Velocity(_))
+                    || graph.is_time(operation)
+                    || is_of_members(operation)
+                    || operation.arguments().any(|argument| writer.is_lanes[argument.index()]);
+            }
+            match operation {
+                Operation::Coordinate(_) => uses_coordinates = true,
+                Operation::Velocity(_) => uses_velocities = true,
+                Operation::Input(_) => uses_inputs = true,
+                Operation::Parameter(index) => {
+                    parameters.extend(
+                        graph.parameter(index).tokens.clone().into_iter().next().map(|word| word.to_string()),
+                    );
+                }
+                _ => {}
+            }
+            let is_leaf = match operation {
+                // A local already.
+                Operation::Parameter(index) => graph.parameter(index).is_in_place(),
+                operation => operation.is_literal(),
+            };
+            let is_paired = partner(graph, node, &nodes).is_some();
+            // `(1.5 + 0.5).ln()` has no type: a local says it.
+            let needs_type = receives[node.index()] && !writer.typed[node.index()];
+            let is_single = !is_paired
+                && writer.anchor(node).is_none()
+                && !needs_type
+                && uses[node.index()] <= 1
+                && !matches!(operation, Operation::Select(..))
+                && !matches!(operation, Operation::Parameter(index) if graph.parameter(index).is_apart())
+                && (graph.name(node).is_none() || matches!(operation, Operation::Parameter(_)));
+            let depth = operation.arguments().map(|argument| depths[argument.index()] + 1).max().unwrap_or(0);
+            if is_leaf || (is_single && depth < DEEPEST) || writer.locals[node.index()].is_some() {
+                depths[node.index()] = if is_leaf || is_single { depth } else { 0 };
+                continue;
+            }
+            let statement = writer.statement(node, &nodes);
+            if is_late[node.index()] { later.extend(statement) } else { statements.extend(statement) }
+        }
+        let outputs = outputs
+            .iter()
+            .map(|&node| if late.is_some() { writer.lanes(node) } else { writer.expression(node).tokens })
+            .collect();
+        let calls_elementary = writer.calls_elementary.get();
+        StraightLine {
+            statements,
+            later,
+            outputs,
+            uses_coordinates,
+            uses_velocities,
+            uses_inputs,
+            calls_elementary,
+            names: writer.runtime.into_inner(),
+            fields,
+            anchors: writer.anchors,
+            parameters,
+        }
     }
 }
 

@@ -17,13 +17,16 @@ pub enum Kind {
     Numbers,
     /// Numbers, by the functions of members, so that both compute the same.
     NumbersAsMembers,
-    /// Lanes; the parameters `late` are known only after the statements that do not need them, and these
-    /// reciprocals start from those of the sweep before.
+    /// Numbers over `Real<D>`, as are q, v, u and the time; fields and constants are lifted.
+    Duals,
+    /// Lanes, as are q, v and the time; the parameters `late` are known only after the statements that do not
+    /// need them. Sines, cosines and these reciprocals start from those of the sweep before.
     Lanes {
         late: Vec<Node>,
         reciprocals: Vec<Node>,
     },
-    /// Numbers of several members, some of them handed over.
+    /// Numbers of several members, as are q, v and what is made of fields alone; and what is handed over,
+    /// which is not computed again.
     Members {
         handed: Vec<Node>,
         reciprocals: Option<Vec<Node>>,

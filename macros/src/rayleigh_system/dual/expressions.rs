@@ -5,6 +5,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use syn::Ident;
 
+use super::super::derived::Kind;
 use super::super::emit::{StraightLine, Writing};
 use super::super::graph::Node;
 use super::super::lower::Lowered;
@@ -47,7 +48,7 @@ pub fn twins(system: &System<'_>, lowered: &Lowered) -> TokenStream {
 
 fn over_duals(lowered: &Lowered, scalar: &Ident, outputs: &[Node]) -> StraightLine {
     let taken = &["q", "v", "u", "t", "D"];
-    Writing { graph: &lowered.graph, scalar, taken, is_portable: false }.duals(outputs)
+    Writing { graph: &lowered.graph, scalar, taken, is_portable: false }.written(outputs, &Kind::Duals)
 }
 
 /// σ over `Real<D>`.

@@ -18,7 +18,7 @@ use quote::{format_ident, quote};
 use syn::Ident;
 
 use super::super::derived::{self, Derived, Kind, Of, Routine};
-use super::super::emit::{Anchored, StraightLine, Writing, inlined};
+use super::super::emit::{StraightLine, Writing, inlined};
 use super::super::graph::Node;
 use super::super::model::{Home, Part, System};
 use super::super::rules::Points;
@@ -113,22 +113,14 @@ impl Text<'_> {
     /// The code of the function, where its home is.
     fn line(&self, function: &Routine) -> StraightLine {
         let (of_view, time): (&[&str], _) = match function.kind {
-            Kind::Numbers => (&["u", "t", "t_end"], None),
+            Kind::Numbers | Kind::Duals => (&["u", "t", "t_end"], None),
             Kind::Lanes { .. } => (&["u", "t", "elapsed"], Some(quote!(let t = *elapsed + self.t;))),
             Kind::NumbersAsMembers | Kind::Members { .. } => (OF_VIEW, None),
         };
         // Without a view, u and t are free for the user's own names.
         let of_view = if function.home == Home::View { of_view } else { &[] };
         let taken = [function.of.arguments(&function.kind), of_view].concat();
-        let (writing, outputs) = (self.writing(&taken), &function.outputs);
-        let mut line = match &function.kind {
-            Kind::Numbers => writing.numbers(outputs),
-            Kind::NumbersAsMembers => writing.numbers_as_members(outputs),
-            Kind::Lanes { late, reciprocals } => writing.lanes(outputs, late, Anchored(reciprocals)),
-            Kind::Members { handed, reciprocals } => {
-                writing.members(outputs, handed, reciprocals.as_deref().map(Anchored))
-            }
-        };
+        let mut line = self.writing(&taken).written(&function.outputs, &function.kind);
         line.fields.sort_by_key(|field| (field.is_truth, field.node));
         let time = time.filter(|_| line.uses("t"));
         self.seen(function.home, line, time)

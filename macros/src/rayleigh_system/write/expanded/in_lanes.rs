@@ -65,6 +65,13 @@ impl<'t> OfMembers<'t> {
         }))
     }
 
+    /// The type of vectors of members.
+    fn vector(&self, length: &impl ToTokens) -> TokenStream {
+        let (name, scalar, members) =
+            (self.text.name("MemberVector"), &self.text.system.scalar, &self.members);
+        quote!(#name<#scalar, #length, #members>)
+    }
+
     /// The value made of one for each node.
     fn value(&self, of: impl Fn(Node) -> TokenStream) -> TokenStream {
         tuple(self.groups().map(|(nodes, _)| {

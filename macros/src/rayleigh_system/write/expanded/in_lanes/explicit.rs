@@ -9,9 +9,8 @@ impl Text<'_> {
         let fields = OfMembers::fields_of(self, [&force, &momenta]);
         let is_timed = self.system.timed.any();
         let gathered = self.gathered(&fields);
-        let (vector, scalar, n, members) =
-            (self.name("MemberVector"), &self.system.scalar, self.system.degrees.times(1), &fields.members);
-        let vector = quote!(#vector<#scalar, #n, #members>);
+        let (scalar, members) = (&self.system.scalar, &fields.members);
+        let vector = fields.vector(&self.system.degrees.times(1));
 
         let (apart, statements) = (fields.read_by(&momenta, is_timed, "t"), &momenta.statements);
         let half = momenta.half();

@@ -18,11 +18,10 @@ impl Text<'_> {
             )
         });
         let gathered = self.gathered(&fields);
-        let (member_vector, scalar, n, members) =
-            (self.name("MemberVector"), &self.system.scalar, self.system.degrees.times(1), &fields.members);
-        let vector = quote!(#member_vector<#scalar, #n, #members>);
-        let width = diagonals
-            .map_or_else(|| n.clone(), |diagonals| Literal::usize_unsuffixed(diagonals).to_token_stream());
+        let (scalar, n, members) = (&self.system.scalar, self.system.degrees.times(1), &fields.members);
+        let vector = fields.vector(&n);
+        let row = diagonals.map(|diagonals| fields.vector(&Literal::usize_unsuffixed(diagonals)));
+        let row = row.as_ref().unwrap_or(&vector);
 
         let function = |name: &str, line: &StraightLine, result: TokenStream, ty: TokenStream| {
             let apart = fields.read_by(line, is_timed, "now");
@@ -53,7 +52,7 @@ impl Text<'_> {
                 .collect(),
         };
         let result = quote!(([#(#p0),*], [#(#rows),*]));
-        let ty = quote!((#vector, [#member_vector<#scalar, #width, #members>; #n]));
+        let ty = quote!((#vector, [#row; #n]));
         let step_kernel = function("step_kernel_in_lanes", &kernel, result, ty);
         let (p0, p1) = momenta.outputs.split_at(self.derived.n);
         let result = quote!([[#(#p0),*], [#(#p1),*]]);

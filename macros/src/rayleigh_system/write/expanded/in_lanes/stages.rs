@@ -18,9 +18,8 @@ impl Text<'_> {
         let fields = OfMembers::new(self, fields);
         let gathered = self.gathered(&fields);
 
-        let (vector, scalar, n, members) =
-            (self.name("MemberVector"), &self.system.scalar, self.system.degrees.times(1), &fields.members);
-        let vector = quote!(#vector<#scalar, #n, #members>);
+        let (scalar, members) = (&self.system.scalar, &fields.members);
+        let vector = fields.vector(&self.system.degrees.times(1));
         let (of_rates, of_kept) = line.outputs.split_at(self.derived.n);
         let handed_over = kept.value(|node| {
             let place = handed.iter().position(|&other| other == node);
