@@ -93,7 +93,7 @@ impl Text<'_> {
         let (name, q) = (format_ident!("{name}"), parameter("q", line.uses_coordinates));
         let v = (function.of != Of::TimeScaleGradient).then(|| {
             let v = parameter("v", line.uses_velocities);
-            quote!(#v: &Vector,)
+            quote!(, #v: &Vector)
         });
         let further: (&[&str], _) = match function.of {
             Of::Variations => (&["minus", "plus"], quote!(Direction<#scalar>)),
@@ -104,7 +104,7 @@ impl Text<'_> {
         let (names, of) = (further.0.iter().map(|name| parameter(name, line.uses(name))), further.1);
         quote! {
             #attributes
-            fn #name(&self, #q: &Vector, #v #(#names: #of),*) -> #ty {
+            fn #name(&self, #q: &Vector #v #(, #names: #of)*) -> #ty {
                 #statements
                 #result
             }
