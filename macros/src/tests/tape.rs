@@ -3,64 +3,23 @@
 //! The text is evaluated as it stands, without rustc: with one lane, or one member. Names of temporaries,
 //! brackets, signs moved to factors, frames and the places of outputs are the text's alone, and held here.
 
+mod systems;
 mod text;
+mod wrong;
 
 use std::collections::HashMap;
 
-use proc_macro2::{Group, Ident, TokenStream, TokenTree};
+use proc_macro2::TokenStream;
 use quote::ToTokens;
 use syn::{ImplItem, Item};
 
-use super::oracle::{Expression, Random};
+use super::oracle::Random;
 use crate::rayleigh_system::derived::{self, Derived, Kind, Of, Points, Routine};
 use crate::rayleigh_system::graph::{Operation, interpret};
 use crate::rayleigh_system::{Runtime, attribute, check, diagnostics::Report, lower, parse, rayleigh_system};
+use systems::system;
 use text::{Scope, Value};
-
-/// Attributes that ask for every kind of function among them.
-const ATTRIBUTES: [&str; 6] = [
-    "rule = [midpoint, trapezoidal, gauss], step_derivatives = second, parameters = [m, k]",
-    "rule = [trapezoidal, midpoint, one_sided]",
-    "rule = [midpoint, gauss], lanes = [midpoint, gauss]",
-    "rule = trapezoidal, lanes = explicit",
-    "rule = [midpoint, gauss], lanes = [midpoint, gauss], multiply_add = fused",
-    "rule = gauss",
-];
-
-/// A system with random L, R and f, and what is asked for.
-fn system(seed: u64) -> (TokenStream, TokenStream) {
-    let mut random = Random(seed);
-    let [l, r, f] = [0; 3].map(|_| {
-        let depth = 1 + random.below(4);
-        Expression::random(&mut random, depth).text()
-    });
-    let attribute = ATTRIBUTES[random.below(ATTRIBUTES.len())];
-    // Explicit steps and the one-sided rule take less: L = ½vᵀMv − V(q), R of v alone; and no force.
-    let (is_explicit, is_joint) = (attribute.contains("explicit"), attribute.contains("one_sided"));
-    let is_timed = !is_joint && random.below(2) == 0;
-    let (t, phase) = if is_timed { (", t: f64", " * (0.3 * t).cos()") } else { ("", "") };
-    let [l, f] = [l, f].map(|text| if is_explicit { text.replace("v[", "q[") } else { text });
-    let is_plain = is_explicit || is_joint;
-    let r = if is_plain { "0.1 * v[0] * v[1]".to_owned() } else { format!("self.k * v[0] * v[0] + {r}") };
-    let (input, drive) = if is_explicit { ("", "self.k") } else { (", u: [f64; 1]", "u[0] * q[1]") };
-    let force = format!(
-        "fn force(&self, q: [f64; 2], v: [f64; 2]{input}) -> [f64; 2] {{ let _ = v; [{drive}, {f}] }}"
-    );
-    let force = if is_joint { "" } else { &force };
-    let scale = "fn time_scale(&self, q: [f64; 2]) -> f64 { 1.0 + self.m * q[0].cos() * q[1] }";
-    let scale = if attribute == "rule = gauss" { scale } else { "" };
-    let item = format!(
-        "impl Random {{
-            fn lagrangian(&self, q: [f64; 2], v: [f64; 2]{t}) -> f64 {{
-                0.5 * self.m * (v[0] * v[0] + 2.0 * v[1] * v[1]) + ({l}){phase}
-            }}
-            fn rayleigh(&self, q: [f64; 2], v: [f64; 2]) -> f64 {{ let _ = q; {r} }}
-            {force}
-            {scale}
-        }}"
-    );
-    (attribute.parse().expect("tokens"), item.parse().expect("tokens"))
-}
+use wrong::with_one_name;
 
 /// The functions of a system as data; nothing where it has none.
 fn data(attribute: TokenStream, item: TokenStream) -> Option<Derived> {
@@ -327,46 +286,4 @@ fn a_wrong_text_and_a_wrong_value_are_found() {
     println!("{found_texts} of {texts} texts, {found_values} of {values} values");
     assert!(texts > 100 && 5 * found_texts > 4 * texts, "{found_texts} of {texts} texts");
     assert!(values > 100 && 10 * found_values > 9 * values, "{found_values} of {values} values");
-}
-
-/// The function with a temporary named as one before it that is read later on.
-fn with_one_name(written: &Written) -> Option<Written> {
-    let statements = &written.function.block.stmts;
-    let temporary = |statement: &syn::Stmt| match statement {
-        syn::Stmt::Local(syn::Local { pat: syn::Pat::Ident(name), .. }) => Some(name.ident.clone()),
-        _ => None,
-    };
-    let is_declared = |name: &Ident| {
-        ["half", "t", "t_end", "q", "q1", "u", "p", "rate", "m", "k"].iter().any(|own| name == own)
-    };
-    let names = || statements.iter().enumerate().filter_map(|(i, of)| Some((i, temporary(of)?)));
-    let (first, last) = names().filter(|(_, name)| !is_declared(name)).find_map(|(i, first)| {
-        let is_read = |after: &[syn::Stmt]| after.iter().any(|of| mentions(of.to_token_stream(), &first));
-        let mut later = names().filter(|(j, name)| *j > i && !is_declared(name));
-        let last = later.find(|(j, _)| is_read(&statements[j + 1..]))?.1;
-        Some((first.clone(), last))
-    })?;
-    let block = renamed(written.function.block.to_token_stream(), &last, &first);
-    let block = syn::parse2(block).expect("a block");
-    let function = syn::ImplItemFn { block, ..written.function.clone() };
-    Some(Written { of: written.of.clone(), function })
-}
-
-fn mentions(tokens: TokenStream, word: &Ident) -> bool {
-    tokens.into_iter().any(|token| match token {
-        TokenTree::Ident(own) => own == *word,
-        TokenTree::Group(group) => mentions(group.stream(), word),
-        _ => false,
-    })
-}
-
-fn renamed(tokens: TokenStream, from: &Ident, to: &Ident) -> TokenStream {
-    let one = |token| match token {
-        TokenTree::Ident(word) if word == *from => TokenTree::Ident(to.clone()),
-        TokenTree::Group(group) => {
-            TokenTree::Group(Group::new(group.delimiter(), renamed(group.stream(), from, to)))
-        }
-        other => other,
-    };
-    tokens.into_iter().map(one).collect()
 }

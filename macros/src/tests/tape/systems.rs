@@ -1,0 +1,50 @@
+//! Random systems, and what is asked for of them.
+
+use proc_macro2::TokenStream;
+
+use super::super::oracle::{Expression, Random};
+
+/// Attributes that ask for every kind of function among them.
+const ATTRIBUTES: [&str; 6] = [
+    "rule = [midpoint, trapezoidal, gauss], step_derivatives = second, parameters = [m, k]",
+    "rule = [trapezoidal, midpoint, one_sided]",
+    "rule = [midpoint, gauss], lanes = [midpoint, gauss]",
+    "rule = trapezoidal, lanes = explicit",
+    "rule = [midpoint, gauss], lanes = [midpoint, gauss], multiply_add = fused",
+    "rule = gauss",
+];
+
+/// A system with random L, R and f, and what is asked for.
+pub fn system(seed: u64) -> (TokenStream, TokenStream) {
+    let mut random = Random(seed);
+    let [l, r, f] = [0; 3].map(|_| {
+        let depth = 1 + random.below(4);
+        Expression::random(&mut random, depth).text()
+    });
+    let attribute = ATTRIBUTES[random.below(ATTRIBUTES.len())];
+    // Explicit steps and the one-sided rule take less: L = ½vᵀMv − V(q), R of v alone; and no force.
+    let (is_explicit, is_joint) = (attribute.contains("explicit"), attribute.contains("one_sided"));
+    let is_timed = !is_joint && random.below(2) == 0;
+    let (t, phase) = if is_timed { (", t: f64", " * (0.3 * t).cos()") } else { ("", "") };
+    let [l, f] = [l, f].map(|text| if is_explicit { text.replace("v[", "q[") } else { text });
+    let is_plain = is_explicit || is_joint;
+    let r = if is_plain { "0.1 * v[0] * v[1]".to_owned() } else { format!("self.k * v[0] * v[0] + {r}") };
+    let (input, drive) = if is_explicit { ("", "self.k") } else { (", u: [f64; 1]", "u[0] * q[1]") };
+    let force = format!(
+        "fn force(&self, q: [f64; 2], v: [f64; 2]{input}) -> [f64; 2] {{ let _ = v; [{drive}, {f}] }}"
+    );
+    let force = if is_joint { "" } else { &force };
+    let scale = "fn time_scale(&self, q: [f64; 2]) -> f64 { 1.0 + self.m * q[0].cos() * q[1] }";
+    let scale = if attribute == "rule = gauss" { scale } else { "" };
+    let item = format!(
+        "impl Random {{
+            fn lagrangian(&self, q: [f64; 2], v: [f64; 2]{t}) -> f64 {{
+                0.5 * self.m * (v[0] * v[0] + 2.0 * v[1] * v[1]) + ({l}){phase}
+            }}
+            fn rayleigh(&self, q: [f64; 2], v: [f64; 2]) -> f64 {{ let _ = q; {r} }}
+            {force}
+            {scale}
+        }}"
+    );
+    (attribute.parse().expect("tokens"), item.parse().expect("tokens"))
+}
