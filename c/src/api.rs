@@ -79,9 +79,8 @@ macro_rules! c_functions {
         pub mod $prefix {
             use super::*;
             // Types by their paths: the user's own may have the same names.
-            use $crate::boundary::{calls, read};
+            use $crate::boundary::{calls, machine, read};
             use $crate::dalembert::system::Scalar as _;
-            use $crate::machine;
 
             const C_COORDINATES: usize = $crate::face::coordinates(core::marker::PhantomData::<fn() -> $system>);
             type CInput = <$system as $crate::face::Described<C_COORDINATES>>::Input;

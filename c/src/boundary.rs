@@ -11,9 +11,12 @@ use core::hint::black_box;
 use core::mem::{MaybeUninit, needs_drop};
 use core::ptr::copy_nonoverlapping;
 
+use dalembert_face::Fields;
+
 use crate::{CReport, Status};
 
 pub mod calls;
+pub mod machine;
 
 unsafe extern "C" {
     /// Defined nowhere: a program that can reach a panic does not link. See [`no_panic!`](crate::no_panic).
@@ -43,6 +46,15 @@ const _: () = assert!(size_of::<CReport>() == 32);
 
 // SAFETY: an array has no more than its elements.
 unsafe impl<T: Plain, const K: usize> Plain for [T; K] {}
+
+/// A system whose fields C can fill in: a struct that [`parameters!`](crate::parameters) declares.
+#[diagnostic::on_unimplemented(
+    message = "C does not know the fields of `{Self}`",
+    note = "declare the struct in `dalembert_c::parameters! {{ … }}`"
+)]
+pub trait CParameters: Fields + Plain {}
+
+impl<P: Fields + Plain> CParameters for P {}
 
 /// Copies the value at `address`.
 ///

@@ -42,14 +42,12 @@ mod api;
 #[doc(hidden)]
 pub mod boundary;
 mod header;
-#[doc(hidden)]
-pub mod machine;
 mod no_panic;
 mod parameters;
 mod report;
 mod status;
 
+pub use boundary::CParameters;
 pub use header::Header;
-pub use parameters::CParameters;
 pub use report::CReport;
 pub use status::{Status, text};

@@ -1,18 +1,5 @@
 //! The struct of a system's parameters, the same in Rust and in C.
 
-use dalembert_face::Fields;
-
-use crate::boundary::Plain;
-
-/// A system whose fields C can fill in: a struct that [`parameters!`](crate::parameters) declares.
-#[diagnostic::on_unimplemented(
-    message = "C does not know the fields of `{Self}`",
-    note = "declare the struct in `dalembert_c::parameters! {{ … }}`"
-)]
-pub trait CParameters: Fields + Plain {}
-
-impl<P: Fields + Plain> CParameters for P {}
-
 /// Declares the struct of a system whose fields C is to fill in, and lays it out as C does.
 ///
 /// Fields are numbers (`f64`, `f32`, `i8` … `u64`) or arrays of them, of one or two dimensions; their

@@ -1,5 +1,8 @@
 //! One instance: its variables, its run, and what is allowed when.
 
+mod derivatives;
+mod saved;
+
 use std::rc::Rc;
 
 use dalembert::run::DrivenTrajectory;
@@ -7,10 +10,10 @@ use dalembert::system::Scalar;
 use dalembert::{Lagrangian, State, nalgebra::SVector};
 use dalembert_face::{Described, Fields, Input, Interface, Number, start};
 
+use crate::Unit;
 use crate::model::Model;
 use crate::refusal::{Mode, Refusal};
 use crate::variables::{self, Place, Role, Variable, number, type_name};
-use crate::{Unit, derivatives, saved};
 
 /// How far the importer's clock may be from the unit's, in steps: what sums of communication steps round to.
 const DRIFT: f64 = 1e-3;
@@ -21,30 +24,30 @@ type Run<I, const N: usize> = DrivenTrajectory<<I as Interface<N>>::Kind, <I as 
 
 /// An instance of a unit.
 pub struct CoSimulation<I: Interface<N>, const N: usize> {
-    pub(crate) unit: &'static Unit<I, N>,
-    pub(crate) variables: Rc<[Variable]>,
-    pub(crate) mode: Mode,
-    pub(crate) start_time: f64,
-    pub(crate) step_size: I::Scalar,
-    pub(crate) system: I::System,
-    pub(crate) input: Vec<I::Scalar>,
+    unit: &'static Unit<I, N>,
+    variables: Rc<[Variable]>,
+    mode: Mode,
+    start_time: f64,
+    step_size: I::Scalar,
+    system: I::System,
+    input: Vec<I::Scalar>,
     /// (q, v) that the run begins at.
-    pub(crate) start: [[I::Scalar; N]; 2],
+    start: [[I::Scalar; N]; 2],
     /// From the end of initialization on.
-    pub(crate) run: Option<Run<I, N>>,
+    run: Option<Run<I, N>>,
     /// The last communication step, while neither state nor parameters were set since.
-    pub(crate) last: Option<Communication<I, N>>,
+    last: Option<Communication<I, N>>,
 }
 
 /// (q, p) and v.
 type Motion<S, const N: usize> = (State<S, N>, SVector<S, N>);
 
 /// Where a communication step began, and what it was taken with.
-pub struct Communication<I: Interface<N>, const N: usize> {
-    pub(crate) before: Run<I, N>,
-    pub(crate) system: I::System,
-    pub(crate) input: Vec<I::Scalar>,
-    pub(crate) steps: u64,
+struct Communication<I: Interface<N>, const N: usize> {
+    before: Run<I, N>,
+    system: I::System,
+    input: Vec<I::Scalar>,
+    steps: u64,
 }
 
 impl<I: Interface<N>, const N: usize> Clone for Communication<I, N> {
@@ -95,12 +98,12 @@ impl<I: Interface<N>, const N: usize> CoSimulation<I, N> {
         }
     }
 
-    pub(crate) fn variable(&self, reference: u32) -> Result<&Variable, Refusal> {
+    fn variable(&self, reference: u32) -> Result<&Variable, Refusal> {
         self.variables.get(reference as usize).ok_or(Refusal::NoVariable(reference))
     }
 
     /// `input` and the time, as the system takes them.
-    pub(crate) fn given(input: &[I::Scalar], time: f64) -> (I::Input, I::Scalar) {
+    fn given(input: &[I::Scalar], time: f64) -> (I::Input, I::Scalar) {
         let input = I::Input::of(input).expect("as many inputs as the unit has");
         (input, I::Scalar::constant(time))
     }
@@ -110,13 +113,13 @@ impl<I: Interface<N>, const N: usize> CoSimulation<I, N> {
     }
 
     /// The system without an input, now: what velocities, momenta and energy are asked of.
-    pub(crate) fn undriven(&self) -> I::View<'_> {
+    fn undriven(&self) -> I::View<'_> {
         let (input, time) = self.without_input();
         I::view(&self.system, input, time)
     }
 
     /// (q, p) and v.
-    pub(crate) fn motion(&self) -> Result<Motion<I::Scalar, N>, Refusal> {
+    fn motion(&self) -> Result<Motion<I::Scalar, N>, Refusal> {
         let system = self.undriven();
         let motion = match &self.run {
             Some(run) => run.state().velocity(&system).map(|v| (*run.state(), v)),

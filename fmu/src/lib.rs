@@ -38,12 +38,10 @@ pub use dalembert_face::fields as parameters;
 #[doc(hidden)]
 pub mod boundary;
 mod cosimulation;
-mod derivatives;
 mod description;
 mod model;
 mod package;
 mod refusal;
-mod saved;
 mod unit;
 mod variables;
 

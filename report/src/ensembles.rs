@@ -39,7 +39,7 @@ const KEPT: f64 = 0.01;
 const IN_A_DECADE: i32 = 3;
 /// How often two are measured in turns.
 const TURNS: usize = 3;
-const BATCH: &str = crate::page::BATCH;
+const BATCH: &str = crate::measured::BATCH;
 
 /// Whether this program is built for the machine that it runs on.
 const IS_NATIVE: bool = cfg!(target_feature = "avx");

@@ -8,7 +8,7 @@ use dalembert_examples::results;
 
 use crate::frontier::{Point, points, unbeaten_by_finer};
 use crate::long_run;
-use crate::page::{BATCH, Measured, QUANTITIES, SCENES};
+use crate::measured::{BATCH, Measured, QUANTITIES, SCENES};
 
 /// How a method looks in every figure.
 type Look = (&'static str, RGBColor, Dash, Mark);

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::measure::{Candidate, interleaved, timed};
 use crate::peers::python::Python;
-use crate::scenes::Ring;
-use crate::{ours, peers, reference};
+use crate::scenes::{Ring, Scene};
+use crate::{peers, reference};
 
 /// The ring with a hundredth of its drag.
 const SCENE: Ring = Ring { k: 1e-5 };
@@ -85,7 +85,7 @@ pub fn measure(python: Option<&Python>) -> Result<(Vec<Record>, Vec<Sample>)> {
     };
 
     let mut traced = Vec::new();
-    for (method, steps) in ours::methods::<Ring, 2>() {
+    for (method, steps) in Ring::methods() {
         // So that samples fall on step ends.
         let counts = (0..40).map(|k| (chunk * 2_f64.powf(0.5 * f64::from(k))).round() as u32);
         traced.extend(worth(counts.map(|in_chunk| {

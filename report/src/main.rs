@@ -12,6 +12,7 @@ mod figures;
 mod frontier;
 mod long_run;
 mod measure;
+mod measured;
 mod ours;
 mod page;
 mod peers;
@@ -57,8 +58,8 @@ fn main() -> Result<()> {
     }
     let records: Vec<Record> = read(&folder.join("scenes.csv"))?;
     let setting = fs::read_to_string(folder.join("setting.md"))?;
-    let ours = ours::names::<Ring, 2>();
-    let measured = page::Measured {
+    let ours = scenes::names();
+    let measured = measured::Measured {
         records: &records,
         long: &read(&folder.join("long-run.csv"))?,
         samples: &read(&folder.join("long-run-samples.csv"))?,

@@ -6,16 +6,19 @@ use anyhow::{Context, Result};
 use dalembert::run::Explicit;
 use dalembert::step::Flow;
 use dalembert::system::{ForcedLagrangian, TimeScale};
-use dalembert::{Composition, Discretise, Gauss, Midpoint, Splitting, State, Trajectory, Trapezoidal};
-
-use crate::scenes::{EccentricKepler, Scene};
+use dalembert::{
+    Composition, Discrete, Discretise, Gauss, Midpoint, Splitting, State, Trajectory, Trapezoidal,
+};
 
 /// A run of a number of steps of size h.
 pub type Steps<S, const N: usize> = fn(&S, &State<f64, N>, f64, u32) -> Result<State<f64, N>>;
 
-/// All of them, for a scene.
-pub fn methods<S: Scene<N>, const N: usize>() -> Vec<(&'static str, Steps<S, N>)> {
-    let mut methods: Vec<(&'static str, Steps<S, N>)> = vec![
+/// Those that every scene has.
+pub fn methods<S, const N: usize>() -> Vec<(&'static str, Steps<S, N>)>
+where
+    S: Discrete<Midpoint, N, Scalar = f64> + Discrete<Trapezoidal, N> + ForcedLagrangian<N>,
+{
+    vec![
         ("midpoint", |s, start, h, n| run(s, Midpoint, start, h, n)),
         ("trapezoidal", |s, start, h, n| run(s, Trapezoidal, start, h, n)),
         ("trapezoidal, Kahan–Li 6", |s, start, h, n| {
@@ -28,28 +31,22 @@ pub fn methods<S: Scene<N>, const N: usize>() -> Vec<(&'static str, Steps<S, N>)
         ("Gauss, 4 stages", |s, start, h, n| run(s, Gauss::<4>, start, h, n)),
         ("Gauss, 6 stages", |s, start, h, n| run(s, Gauss::<6>, start, h, n)),
         ("Gauss, 8 stages", |s, start, h, n| run(s, Gauss::<8>, start, h, n)),
-    ];
-    methods.extend(S::OTHERS);
-    methods
+    ]
 }
 
 /// A run of a number of steps of size h, with an error asked for at its end.
 pub type StepsTo<S, const N: usize> = fn(&S, &State<f64, N>, f64, u32, f64) -> Result<State<f64, N>>;
 
 /// Those that make use of an error asked for.
-pub fn to_an_error<S: Scene<N>, const N: usize>() -> Vec<(&'static str, StepsTo<S, N>)> {
+pub fn to_an_error<S, const N: usize>() -> Vec<(&'static str, StepsTo<S, N>)>
+where
+    S: ForcedLagrangian<N, Scalar = f64>,
+{
     vec![
         ("Gauss, 4 stages, to an error", solved_for::<S, N, 4>),
         ("Gauss, 6 stages, to an error", solved_for::<S, N, 6>),
         ("Gauss, 8 stages, to an error", solved_for::<S, N, 8>),
     ]
-}
-
-/// The names of all, those of an eccentric orbit among them.
-pub fn names<S: Scene<N>, const N: usize>() -> Vec<&'static str> {
-    let scaled = EccentricKepler::OTHERS.iter().map(|(name, _)| *name);
-    let to_rounding = methods::<S, N>().into_iter().map(|(name, _)| name).chain(scaled);
-    to_rounding.chain(to_an_error::<S, N>().into_iter().map(|(name, _)| name)).collect()
 }
 
 /// What scenes add whose trapezoidal rule is explicit.

@@ -8,7 +8,7 @@ pub use dalembert_scenes::{
     HenonHeiles, Kepler, Ring,
 };
 
-use crate::ours::{InScaledTime, Splittings, Steps};
+use crate::ours::{self, InScaledTime, Splittings, Steps};
 
 /// A system in both forms.
 pub trait Scene<const N: usize>:
@@ -17,8 +17,20 @@ pub trait Scene<const N: usize>:
     /// The methods that not every scene has.
     const OTHERS: &'static [(&'static str, Steps<Self, N>)] = &[];
 
+    /// All methods of this project.
+    fn methods() -> Vec<(&'static str, Steps<Self, N>)> {
+        [&ours::methods(), Self::OTHERS].concat()
+    }
+
     /// q̈ as a function of (q, q̇).
     fn acceleration(&self, q: &[f64; N], v: &[f64; N]) -> [f64; N];
+}
+
+/// The names of all methods of this project, those of an eccentric orbit among them.
+pub fn names() -> Vec<&'static str> {
+    let scaled = EccentricKepler::OTHERS.iter().map(|(name, _)| *name);
+    let to_rounding = Ring::methods().into_iter().map(|(name, _)| name).chain(scaled);
+    to_rounding.chain(ours::to_an_error::<Ring, 2>().into_iter().map(|(name, _)| name)).collect()
 }
 
 impl Scene<2> for Ring {

@@ -54,7 +54,7 @@ pub fn scene<S: Scene<N>, const N: usize, const M: usize>(
     let mut candidates: Vec<Candidate<'_, State<f64, N>>> = Vec::new();
     // From steps of length 4 on.
     let count = |k: i32| (time * 2_f64.sqrt().powi(k)).ceil();
-    for (method, steps) in ours::methods::<S, N>() {
+    for (method, steps) in S::methods() {
         candidates.extend(worth((-4..56).map(count), error, |setting| {
             let run = move || steps(scene, &start, time / setting, setting as u32);
             Candidate { method, setting, run: timed(run, Ok) }

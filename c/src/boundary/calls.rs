@@ -9,8 +9,8 @@ use dalembert::run::DrivenTrajectory;
 use dalembert::step::{Flow, Report};
 use dalembert_face::{Interface, require_step_size, start};
 
+use super::machine::{self, Entered, Given, Machine, Number, Rule, System, View};
 use super::{Held, advance, both, change, look, optional, place, read, seen, write};
-use crate::machine::{self, Entered, Given, Machine, Number, Rule, System, View};
 use crate::{CReport, Status};
 
 type Vector<C, const N: usize> = [Number<C, N>; N];

@@ -6,6 +6,8 @@ use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyInt, PySequence, PyString};
 
+use crate::model::Kind;
+
 /// The array of `float64` that is given, whatever its shape.
 ///
 /// # Errors
@@ -110,6 +112,42 @@ pub fn rows(name: &str, given: &Bound<'_, PyAny>, rows: u64, n: usize) -> PyResu
         _ => return Err(of_shape(name, &format!("({n},) or ({rows}, {n})"), array.shape())),
     }
     Ok(numbers(&array))
+}
+
+/// The input, of as many numbers as the system takes, as `read` has it; `None` where it takes none.
+///
+/// # Errors
+/// `TypeError` where it takes none and there is one, or the other way round; those of `read`.
+pub fn input<T>(
+    kind: &dyn Kind,
+    u: Option<&Bound<'_, PyAny>>,
+    read: impl FnOnce(&Bound<'_, PyAny>, usize) -> PyResult<T>,
+) -> PyResult<Option<T>> {
+    let name = kind.name();
+    match (u, kind.inputs()) {
+        (Some(u), length) if length > 0 => read(u, length).map(Some),
+        (None, 0) => Ok(None),
+        (None, length) => {
+            Err(PyTypeError::new_err(format!("{name} takes an input: give u, {length} numbers")))
+        }
+        (Some(_), _) => Err(PyTypeError::new_err(format!("{name} takes no input u"))),
+    }
+}
+
+/// The time, if the system takes it.
+///
+/// # Errors
+/// `TypeError` where it does not, `ValueError` where the time is not finite.
+pub fn time(kind: &dyn Kind, t: Option<f64>) -> PyResult<f64> {
+    match t {
+        Some(_) if !kind.takes_time() => {
+            Err(PyTypeError::new_err(format!("{} does not take the time: leave t out", kind.name())))
+        }
+        Some(t) if !t.is_finite() => {
+            Err(PyValueError::new_err(format!("t: expected a finite time, got {t}")))
+        }
+        t => Ok(t.unwrap_or(0.0)),
+    }
 }
 
 /// The numbers of an array, row by row.

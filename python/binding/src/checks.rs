@@ -8,7 +8,6 @@ use dalembert::step::{Discrete, ForceWork};
 use dalembert::{Discretise, EnergyLedger, Lagrangian, State};
 
 use crate::motion::Given;
-use crate::offer::Probe;
 use crate::record::Failure;
 use crate::refusal::Refusal;
 use crate::system::System;
@@ -103,31 +102,8 @@ pub trait Checks<S: System<N>, const N: usize>: Send + Sync {
     ) -> Result<Ledger, Refusal>;
 }
 
-/// Of a method that has no discrete objects by formulas.
-pub trait NoChecks<S: System<N>, const N: usize> {
-    /// Returns `None`.
-    fn checks(&self) -> Option<Box<dyn Checks<S, N>>> {
-        None
-    }
-}
-
-impl<S: System<N>, M, const N: usize> NoChecks<S, N> for Probe<S, M, N> {}
-
 /// A rule.
-struct ByRule<M>(M);
-
-impl<S, M, const N: usize> Probe<S, M, N>
-where
-    S: System<N>,
-    for<'a> S::View<'a>: Discrete<M, N> + ForceWork<M, N>,
-    M: Copy + Send + Sync + 'static,
-{
-    /// The checks of its discrete objects.
-    #[must_use]
-    pub fn checks(&self) -> Option<Box<dyn Checks<S, N>>> {
-        Some(Box::new(ByRule(self.method)))
-    }
-}
+pub struct ByRule<M>(pub M);
 
 impl<S, M, const N: usize> Checks<S, N> for ByRule<M>
 where

@@ -8,15 +8,15 @@ use pyo3::exceptions::{PyAttributeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
-use crate::arguments::{self, array, entries, number, rows, vector};
+use crate::arguments::{self, array, entries, input, number, rows, time, vector};
 use crate::arrays::to_array;
 use crate::checks::{Affine, Region};
 use crate::ensemble;
 use crate::error::{of_events, of_memory, of_refusal, of_step, warn};
 use crate::linearization::Linearization;
-use crate::model::{Kind, Model, MotionGiven, Run as Asked, Start, Stepping};
+use crate::model::{Kind, Model, MotionGiven, Run as Asked, Start};
 use crate::motion;
-use crate::offer::ErrorAsked;
+use crate::offer::{ErrorAsked, Stepping};
 use crate::record::Stop;
 use crate::reports::{EnergyLedger, Symmetry};
 use crate::results::{Run, partial};
@@ -138,29 +138,7 @@ fn inputs(
     t: Option<f64>,
     steps: u64,
 ) -> PyResult<(Vec<f64>, f64)> {
-    let name = kind.name();
-    let inputs = match (u, kind.inputs()) {
-        (Some(u), length) if length > 0 => rows("u", u, steps, length)?,
-        (None, 0) => Vec::new(),
-        (None, length) => {
-            return Err(PyTypeError::new_err(format!("{name} takes an input: give u, {length} numbers")));
-        }
-        (Some(_), _) => return Err(PyTypeError::new_err(format!("{name} takes no input u"))),
-    };
-    Ok((inputs, time(kind, t)?))
-}
-
-/// The time, if the system takes it.
-pub fn time(kind: &dyn Kind, t: Option<f64>) -> PyResult<f64> {
-    match t {
-        Some(_) if !kind.takes_time() => {
-            Err(PyTypeError::new_err(format!("{} does not take the time: leave t out", kind.name())))
-        }
-        Some(t) if !t.is_finite() => {
-            Err(PyValueError::new_err(format!("t: expected a finite time, got {t}")))
-        }
-        t => Ok(t.unwrap_or(0.0)),
-    }
+    Ok((input(kind, u, |u, length| rows("u", u, steps, length))?.unwrap_or_default(), time(kind, t)?))
 }
 
 /// The times of states, one for all or one for each, of arrays of this shape; of a system that takes none, 0.

@@ -16,14 +16,14 @@ use pyo3::exceptions::{PyOSError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyModule};
 
-use crate::arguments::{self, array, entries_of_members, of_shape};
+use crate::arguments::{self, array, entries_of_members, input, of_shape, time};
 use crate::arrays::to_array;
-use crate::class::time;
 use crate::crossings::Crossings;
 use crate::error::{of_member, of_memory, of_refusal};
 use crate::events::Event;
 use crate::many::{Asked, Control, FieldOfMembers, FoundOfMembers, Kept, NoResult, Rows, Written};
-use crate::model::{Kind, Model, Stepping};
+use crate::model::{Kind, Model};
+use crate::offer::Stepping;
 use crate::pickled::{Reduced, reduced};
 use crate::watch::PATIENCE;
 use crate::{pool, watched};
@@ -153,6 +153,7 @@ pub struct Given<'a, 'py> {
 }
 
 /// Numbers for each member, or for all: the rows, and how many there are if it is one for each.
+#[derive(Default)]
 struct Read {
     numbers: Vec<f64>,
     members: Option<usize>,
@@ -194,15 +195,7 @@ pub fn run<'py>(py: Python<'py>, model: &dyn Model, given: Given<'_, 'py>) -> Py
         _ => return Err(PyTypeError::new_err("starts are q with either v or p")),
     };
     let (q, other) = (read("q", given.q, n)?, read(name, other, n)?);
-    let inputs = match (given.u, kind.inputs()) {
-        (Some(u), length) if length > 0 => read("u", u, length)?,
-        (None, 0) => Read { numbers: Vec::new(), members: None, width: 0 },
-        (None, length) => {
-            let name = kind.name();
-            return Err(PyTypeError::new_err(format!("{name} takes an input: give u, {length} numbers")));
-        }
-        (Some(_), _) => return Err(PyTypeError::new_err(format!("{} takes no input u", kind.name()))),
-    };
+    let inputs = input(kind, given.u, |u, length| read("u", u, length))?.unwrap_or_default();
     let time = time(kind, given.t)?;
     let mut members = None;
     for (name, length) in [("q", q.members), (name, other.members), ("u", inputs.members)] {

@@ -146,7 +146,9 @@ macro_rules! system {
                         .expect("as many as the system takes");
                     fields.view(*fields, u, t)
                 }
+            }
 
+            impl $crate::offer::Offers<N> for $of<$system> {
                 fn offers() -> ::std::vec::Vec<$crate::offer::Offer<Self, N>> {
                     $crate::offers!(Self, N)
                 }
@@ -190,8 +192,7 @@ macro_rules! offers {
         gauss $($gauss:literal $stages:expr),*;
         splittings $($splitting:literal $kicks:expr),*;
     ) => {{
-        use $crate::checks::NoChecks as _;
-        use $crate::offer::{NoDifferentiatedSteps as _, NoDrivenSteps as _, NoSteps as _, NoStepsInLanes as _};
+        use $crate::offer::{NoChecks as _, NoDifferentiatedSteps as _, NoDrivenSteps as _, NoSteps as _, NoStepsInLanes as _};
         ::std::vec![
             $({
                 let probe = $crate::offer::Probe::<$system, _, $n>::new($by);

@@ -17,12 +17,10 @@ use dalembert_face::{Described, Fields, Number};
 use twox_hash::XxHash3_128;
 
 use crate::events::Found;
-use crate::model::Stepping;
 use crate::motion::measured;
-use crate::offer::Offer;
+use crate::offer::{Offers, Stepping};
 use crate::record::Record;
 use crate::refusal::Refusal;
-use crate::system::System;
 use crate::together::BySome;
 
 /// A row of numbers for each member, or one for all.
@@ -193,7 +191,7 @@ pub enum NoResult {
 }
 
 /// The fields of each member, or those of all.
-fn fields_of_members<S: System<N>, const N: usize>(system: &S::Fields, asked: &Asked<'_>) -> Vec<S::Fields> {
+fn fields_of_members<S: Offers<N>, const N: usize>(system: &S::Fields, asked: &Asked<'_>) -> Vec<S::Fields> {
     if asked.fields.is_empty() {
         return vec![*system];
     }
@@ -209,7 +207,7 @@ fn fields_of_members<S: System<N>, const N: usize>(system: &S::Fields, asked: &A
 }
 
 /// Member `member`: its system and its start.
-fn start<'a, S: System<N>, const N: usize>(
+fn start<'a, S: Offers<N>, const N: usize>(
     fields: &'a [S::Fields],
     asked: &Asked<'_>,
     member: usize,
@@ -224,16 +222,13 @@ fn start<'a, S: System<N>, const N: usize>(
 }
 
 /// The steps that are asked for.
-fn by_some<'a, S: System<N>, const N: usize>(
+fn by_some<'a, S: Offers<N>, const N: usize>(
     asked: &Asked<'_>,
 ) -> Result<BySome<'a, S::View<'a>, N>, Refusal> {
     let steps = match asked.stepping {
         Stepping::Fixed { h, steps, rule } => {
-            let is_asked_for =
-                |offer: &Offer<S, N>| rule.is_none_or(|rule| rule == offer.name) && offer.steps.is_some();
-            let offer = S::offers().into_iter().find(is_asked_for).ok_or(Refusal::Rule)?;
             let plan = Plan { h, steps, every: asked.every.map(|every| every.max(1)), error: None };
-            offer.steps.ok_or(Refusal::Rule)?.together(plan)
+            S::offered(rule)?.steps.ok_or(Refusal::Rule)?.together(plan)
         }
         Stepping::ToError(asked) => S::steps_to_error().ok_or(Refusal::NoError)?.together(asked),
     };
@@ -252,7 +247,7 @@ fn records(asked: &Asked<'_>) -> u64 {
 ///
 /// # Errors
 /// Why there are none.
-pub fn kept<S: System<N>, const N: usize>(
+pub fn kept<S: Offers<N>, const N: usize>(
     system: &S::Fields,
     asked: &Asked<'_>,
     control: &Control,
@@ -284,7 +279,7 @@ pub fn kept<S: System<N>, const N: usize>(
 ///
 /// # Errors
 /// Why they are not all there.
-pub fn written<S: System<N>, const N: usize>(
+pub fn written<S: Offers<N>, const N: usize>(
     system: &S::Fields,
     asked: &Asked<'_>,
     control: &Control,
@@ -316,7 +311,7 @@ const STATES: usize = 2048;
 
 /// The hash that tells a model from one that was edited, whatever its fields and members: of its forces with
 /// fields and inputs that are always these.
-fn model<S: System<N>, const N: usize>() -> String {
+fn model<S: Offers<N>, const N: usize>() -> String {
     let mut fields = S::Fields::ZERO;
     let mut number = 0.7;
     for field in 0..S::Fields::FIELDS.len() {

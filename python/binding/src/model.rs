@@ -13,10 +13,9 @@ use crate::checks::{Affine, Ledger, Region, Symmetry};
 use crate::events::{Event, Events, Found};
 use crate::many::{self, Asked, Control, Kept, NoResult, Written};
 use crate::motion::{Given, Motion, measured};
-use crate::offer::{ErrorAsked, Offer};
+use crate::offer::{Offer, Offers, Stepping};
 use crate::record::{Failure, Guarded, Plan, Record, Stop};
 use crate::refusal::Refusal;
-use crate::system::System;
 use crate::watch::Watch;
 
 /// A class of systems.
@@ -146,22 +145,6 @@ pub struct Start<'a> {
     pub time: f64,
 }
 
-/// The steps that a run takes.
-#[derive(Clone, Copy, Debug)]
-pub enum Stepping<'a> {
-    /// So many of size h.
-    Fixed {
-        /// h.
-        h: f64,
-        /// How many.
-        steps: u64,
-        /// By which rule; the first of the system if none is named.
-        rule: Option<&'a str>,
-    },
-    /// The steps that an error asked for needs.
-    ToError(ErrorAsked),
-}
-
 /// A run that is asked for.
 #[derive(Debug)]
 pub struct Run<'a> {
@@ -209,11 +192,11 @@ pub struct Linearized {
 pub struct KindOf<S, const N: usize>(pub PhantomData<fn() -> S>);
 
 /// A system of S.
-struct ModelOf<S: System<N>, const N: usize> {
+struct ModelOf<S: Offers<N>, const N: usize> {
     fields: S::Fields,
 }
 
-impl<S: System<N>, const N: usize> Kind for KindOf<S, N> {
+impl<S: Offers<N>, const N: usize> Kind for KindOf<S, N> {
     fn name(&self) -> &'static str {
         S::NAME
     }
@@ -255,7 +238,7 @@ impl<S: System<N>, const N: usize> Kind for KindOf<S, N> {
     }
 }
 
-impl<S: System<N>, const N: usize> ModelOf<S, N> {
+impl<S: Offers<N>, const N: usize> ModelOf<S, N> {
     fn given<'a>(start: &Start<'a>) -> Given<'a> {
         Given { inputs: start.inputs, time: start.time }
     }
@@ -274,19 +257,12 @@ impl<S: System<N>, const N: usize> ModelOf<S, N> {
     }
 }
 
-/// The offer of the rule of this name, or of the first.
-fn offered<S: System<N>, const N: usize>(rule: Option<&str>) -> Result<Offer<S, N>, Refusal> {
-    let is_asked_for =
-        |offer: &Offer<S, N>| rule.is_none_or(|rule| rule == offer.name) && offer.steps.is_some();
-    S::offers().into_iter().find(is_asked_for).ok_or(Refusal::Rule)
-}
-
 fn refused(start: &Start<'_>, error: StepError) -> Refusal {
     let p = if let MotionGiven::Momentum(p) = start.motion { p } else { &[] };
     Refusal::Start(Failure { error, step: 0, time: start.time, state: [start.q, p].map(<[f64]>::to_vec) })
 }
 
-impl<S: System<N>, const N: usize> Model for ModelOf<S, N> {
+impl<S: Offers<N>, const N: usize> Model for ModelOf<S, N> {
     fn kind(&self) -> &'static dyn Kind {
         &KindOf::<S, N>(PhantomData)
     }
@@ -317,7 +293,7 @@ impl<S: System<N>, const N: usize> Model for ModelOf<S, N> {
             Stepping::Fixed { h, steps, rule } => {
                 let plan = Plan { steps, every: *every, origin: given.time };
                 let mut record = |motion: &mut dyn Motion<N>| ran = Record::of(motion, &plan, watch);
-                let Offer { steps, driven, .. } = offered::<S, N>(rule)?;
+                let Offer { steps, driven, .. } = S::offered(rule)?;
                 let has_one_input = given.inputs.len() == S::Fields::INPUTS;
                 let given = Self::given(given);
                 if has_one_input && !is_differentiated {
@@ -363,7 +339,7 @@ impl<S: System<N>, const N: usize> Model for ModelOf<S, N> {
     fn linearized(&self, start: &Start<'_>, h: f64, rule: Option<&str>) -> Result<Linearized, Refusal> {
         let state = self.state(start)?;
         let given = Self::given(start);
-        let linearized = match offered::<S, N>(rule)? {
+        let linearized = match S::offered(rule)? {
             Offer { driven: Some(driven), .. } => driven.linearized(&self.fields, given, h, &state),
             Offer { differentiated: Some(steps), .. } => steps.linearized(&self.fields, given, h, &state),
             _ => return Err(Refusal::NotDriven),
@@ -383,7 +359,7 @@ impl<S: System<N>, const N: usize> Model for ModelOf<S, N> {
         region: &Region<'_>,
         watch: &Watch<'_>,
     ) -> Result<Vec<Symmetry>, Refusal> {
-        let checks = offered::<S, N>(rule)?.checks.ok_or(Refusal::NotChecked)?;
+        let checks = S::offered(rule)?.checks.ok_or(Refusal::NotChecked)?;
         checks.symmetries(&self.fields, given, h, generators, region, watch)
     }
 
@@ -396,7 +372,7 @@ impl<S: System<N>, const N: usize> Model for ModelOf<S, N> {
         watch: &Watch<'_>,
     ) -> Result<Ledger, Refusal> {
         let state = self.state(start)?;
-        let checks = offered::<S, N>(rule)?.checks.ok_or(Refusal::NotChecked)?;
+        let checks = S::offered(rule)?.checks.ok_or(Refusal::NotChecked)?;
         checks.ledger(&self.fields, Self::given(start), h, &state, steps, watch)
     }
 

@@ -7,7 +7,7 @@ use pyo3::types::{PyCFunction, PyDict, PyList, PyModule, PyTuple, PyType};
 use crate::class::{KIND, KindObject, System};
 use crate::model::Kind;
 use crate::structure;
-use crate::stub::stub_of;
+use crate::stub::{lines, stub_of};
 use crate::{ensemble, error, reports, results, watching};
 
 /// Fills `module`.
@@ -62,11 +62,6 @@ fn documentation(kind: &dyn Kind) -> String {
         text += &format!("\n\n{name} : {}\n    {}", annotation(field), lines(documentation, "\n    "));
     }
     text
-}
-
-/// Lines of documentation, as Rust's comments have them, with this between.
-pub fn lines(documentation: &[&str], between: &str) -> String {
-    documentation.iter().map(|line| line.trim()).collect::<Vec<_>>().join(between)
 }
 
 /// The type of a field as Python writes it.

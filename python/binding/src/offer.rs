@@ -3,17 +3,18 @@
 use core::marker::PhantomData;
 
 use dalembert::run::{Discretise, DrivenTrajectory, InLanes as LanesBy, Stop};
-use dalembert::step::{Flow, Linearizable, Memory, Step};
+use dalembert::step::{Discrete, Flow, ForceWork, Linearizable, Memory, Step};
 use dalembert::tolerance::{OffersMethods, ToleranceError};
 use dalembert::{State, StepError};
 use dalembert_ensemble::{InLanes, OneByOne, Plan, ToError};
 use dalembert_face::{ByInput, ByParameters, Column};
 
-use crate::checks::Checks;
+use crate::checks::{self, Checks};
 use crate::derivatives::{column_rows, matrix_rows};
 use crate::events::{Events, watched};
 use crate::motion::{Given, Motion, Of, StepByStep};
 use crate::record::Guarded;
+use crate::refusal::Refusal;
 use crate::system::System;
 use crate::together::Together;
 
@@ -29,6 +30,27 @@ pub struct Offer<S: System<N>, const N: usize> {
     pub differentiated: Option<Box<dyn DifferentiatedSteps<S, N>>>,
     /// Checks of its discrete objects: of rules by displacement.
     pub checks: Option<Box<dyn Checks<S, N>>>,
+}
+
+/// A system with the methods that it offers.
+///
+/// [`module!`](crate::module) implements it.
+pub trait Offers<const N: usize>: System<N> {
+    /// The offers of all methods.
+    fn offers() -> Vec<Offer<Self, N>>;
+
+    /// Runs to an error asked for, where the rules offer some.
+    fn steps_to_error() -> Option<Box<dyn StepsToError<Self, N>>>;
+
+    /// The offer of the rule of this name, or of the first.
+    ///
+    /// # Errors
+    /// [`Refusal::Rule`].
+    fn offered(rule: Option<&str>) -> Result<Offer<Self, N>, Refusal> {
+        let is_asked_for =
+            |offer: &Offer<Self, N>| rule.is_none_or(|rule| rule == offer.name) && offer.steps.is_some();
+        Self::offers().into_iter().find(is_asked_for).ok_or(Refusal::Rule)
+    }
 }
 
 /// A function that a run is handed to.
@@ -113,6 +135,22 @@ pub struct ErrorAsked {
     pub until: f64,
 }
 
+/// The steps that a run takes.
+#[derive(Clone, Copy, Debug)]
+pub enum Stepping<'a> {
+    /// So many of size h.
+    Fixed {
+        /// h.
+        h: f64,
+        /// How many.
+        steps: u64,
+        /// By which rule; the first of the system if none is named.
+        rule: Option<&'a str>,
+    },
+    /// The steps that an error asked for needs.
+    ToError(ErrorAsked),
+}
+
 /// Runs to an error asked for.
 #[allow(clippy::too_many_arguments, reason = "a run has so many")]
 pub trait StepsToError<S: System<N>, const N: usize>: Send + Sync {
@@ -155,7 +193,7 @@ pub trait StepsToError<S: System<N>, const N: usize>: Send + Sync {
 /// `Probe` itself has bounds that do not hold. It decides for types that are known, as in what
 /// [`module!`](crate::module) writes, and there without a word about the methods of a system.
 pub struct Probe<S, M, const N: usize> {
-    pub(crate) method: M,
+    method: M,
     system: PhantomData<fn() -> S>,
 }
 
@@ -206,11 +244,20 @@ pub trait NoStepsToError<S: System<N>, const N: usize> {
     }
 }
 
+/// Of a method that has no discrete objects by formulas.
+pub trait NoChecks<S: System<N>, const N: usize> {
+    /// Returns `None`.
+    fn checks(&self) -> Option<Box<dyn Checks<S, N>>> {
+        None
+    }
+}
+
 impl<S: System<N>, M, const N: usize> NoSteps<S, N> for Probe<S, M, N> {}
 impl<S: System<N>, M, const N: usize> NoStepsInLanes<S, N> for Probe<S, M, N> {}
 impl<S: System<N>, M, const N: usize> NoDrivenSteps<S, N> for Probe<S, M, N> {}
 impl<S: System<N>, M, const N: usize> NoDifferentiatedSteps<S, N> for Probe<S, M, N> {}
 impl<S: System<N>, M, const N: usize> NoStepsToError<S, N> for Probe<S, M, N> {}
+impl<S: System<N>, M, const N: usize> NoChecks<S, N> for Probe<S, M, N> {}
 
 /// A method.
 struct By<M>(M);
@@ -377,6 +424,19 @@ where
             b: rows(S::Input::columns(&taken)?.as_ref()),
             by_parameters: rows(S::Parameters::columns(&taken)?.as_ref()),
         })
+    }
+}
+
+impl<S, M, const N: usize> Probe<S, M, N>
+where
+    S: System<N>,
+    for<'a> S::View<'a>: Discrete<M, N> + ForceWork<M, N>,
+    M: Copy + Send + Sync + 'static,
+{
+    /// The checks of its discrete objects.
+    #[must_use]
+    pub fn checks(&self) -> Option<Box<dyn Checks<S, N>>> {
+        Some(Box::new(checks::ByRule(self.method)))
     }
 }
 

@@ -5,7 +5,6 @@ use core::fmt::Write;
 use dalembert_face::Field;
 
 use crate::model::Kind;
-use crate::module::lines;
 
 /// The classes that all modules have.
 const COMMON: &str = include_str!("common.pyi");
@@ -30,6 +29,11 @@ pub fn stub_of(kinds: &[&dyn Kind]) -> String {
         }
     }
     text
+}
+
+/// Lines of documentation, as Rust's comments have them, with this between.
+pub fn lines(documentation: &[&str], between: &str) -> String {
+    documentation.iter().map(|line| line.trim()).collect::<Vec<_>>().join(between)
 }
 
 /// The type of a field's value.

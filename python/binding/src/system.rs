@@ -3,8 +3,6 @@
 use dalembert::system::ActingForce;
 use dalembert_face::{Described, Fields};
 
-use crate::offer::{Offer, StepsToError};
-
 /// A system: its fields, and what is stepped.
 ///
 /// [`module!`](crate::module) implements it.
@@ -22,10 +20,4 @@ pub trait System<const N: usize>: Sized + 'static {
 
     /// The system with u at time t, as far as it takes them; u has the length that it takes.
     fn view<'a>(fields: &'a Self::Fields, u: &[f64], t: f64) -> Self::View<'a>;
-
-    /// The offers of all methods, to this system.
-    fn offers() -> Vec<Offer<Self, N>>;
-
-    /// Runs to an error asked for, where the rules offer some.
-    fn steps_to_error() -> Option<Box<dyn StepsToError<Self, N>>>;
 }

@@ -16,7 +16,7 @@ use dalembert::system::Scalar;
 use dalembert::{Lagrangian, State, StepError};
 use dalembert_face::{Described, Interface};
 
-use crate::cosimulation::CoSimulation;
+use super::CoSimulation;
 use crate::model::Model;
 use crate::refusal::{Mode, Refusal};
 use crate::variables::{Place, Variable};

@@ -7,7 +7,7 @@ use dalembert::run::{Checkpoint, DrivenTrajectory};
 use dalembert::system::Scalar;
 use dalembert_face::{Fields, Interface, Number};
 
-use crate::cosimulation::CoSimulation;
+use super::CoSimulation;
 use crate::refusal::{Mode, Refusal};
 use crate::variables::Place;
 

@@ -6,8 +6,8 @@ use dalembert::system::Scalar;
 use dalembert::{State, StepError};
 use dalembert_face::{Column, Interface};
 
-use crate::boundary::{Plain, refused};
-use crate::{CParameters, Status};
+use super::{CParameters, Plain, refused};
+use crate::Status;
 
 /// A system by a rule whose numbers C reads as they are.
 pub trait Plainly<const N: usize>: Interface<N, System: CParameters, Scalar: Plain> {}
