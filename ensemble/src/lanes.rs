@@ -267,7 +267,7 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         let Plan { h, steps: all, every, .. } = self.plan;
         let OnItsWay { number, system, next: steps, .. } = *member;
         let time = if steps == 0 { 0.0 } else { h.widen() * steps as f64 };
-        let record = Record { number, system, steps, time, state };
+        let record = Record { number, system, steps, time, state, event: None };
         let observed = observe(member.value, &record);
         member.seen += 1;
         if observed.is_break() || steps == all {

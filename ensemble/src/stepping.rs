@@ -25,6 +25,9 @@ pub struct Slot<L: Lagrangian<N>, V, const N: usize> {
 }
 
 /// How the members of a chunk are stepped.
+///
+/// One of one's own may look for events: it hands them on as records ([`Record::event`]), in the order of
+/// time.
 pub trait Stepping<L: Lagrangian<N>, const N: usize>: Sync {
     /// Steps all of `members`; `observe` sees the records of each in the order of time, and says whether it
     /// goes on. Breaks where `stop` is asked to end, which it looks at some hundred steps apart at most: the
@@ -39,6 +42,11 @@ pub trait Stepping<L: Lagrangian<N>, const N: usize>: Sync {
     /// How the members are stepped, in words: that two studies are the same.
     fn description(&self) -> String;
 
+    /// Whether records may be of events: files have a column for them then.
+    fn has_events(&self) -> bool {
+        false
+    }
+
     /// Numbers of a member's motion from its start, by which it is told from one that starts alike and moves
     /// otherwise, as with other fields. None unless it is implemented.
     fn at_start(&self, system: &L, start: &State<L::Scalar, N>) -> Vec<f64> {
@@ -48,7 +56,8 @@ pub trait Stepping<L: Lagrangian<N>, const N: usize>: Sync {
 }
 
 /// Why the run of a member has no end.
-pub(crate) enum NoEnd<S, const N: usize> {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoEnd<S, const N: usize> {
     /// It fails.
     Failed(Failure<S, N>),
     /// The caller ends all.
@@ -72,8 +81,9 @@ pub(crate) fn failed<S, const N: usize>(
     }
 }
 
-/// One member after the other: the run of each that has a start, and its failure.
-fn one_by_one<L: Lagrangian<N>, V, const N: usize>(
+/// Steps one member after the other: `run` makes the run of each that has a start, given its number, system,
+/// start and value. Breaks where it is stopped.
+pub fn one_by_one<L: Lagrangian<N>, V, const N: usize>(
     members: &mut [Slot<L, V, N>],
     run: impl Fn(u64, &L, &State<L::Scalar, N>, &mut V) -> Result<(), NoEnd<L::Scalar, N>>,
 ) -> ControlFlow<()> {
@@ -184,7 +194,7 @@ impl<S: Scalar> Plan<S> {
         if let Some(error) = self.error {
             run = run.solved_for(error, self.time());
         }
-        let start = Record { number, system, steps: 0, time: 0.0, state: *start };
+        let start = Record { number, system, steps: 0, time: 0.0, state: *start, event: None };
         if (self.every.is_some() || self.steps == 0) && observe(&start).is_break() {
             return Ok(());
         }
@@ -206,7 +216,8 @@ impl<S: Scalar> Plan<S> {
                 continue;
             }
             next = self.steps.min(steps.saturating_add(stride));
-            let record = Record { number, system, steps, time: run.time(), state: *run.state() };
+            let (time, state) = (run.time(), *run.state());
+            let record = Record { number, system, steps, time, state, event: None };
             if observe(&record).is_break() {
                 break;
             }
@@ -255,7 +266,7 @@ where
             let (steps, state) = (reached.choice.steps(), reached.state);
             let time = reached.choice.step_size() * steps as f64;
             // The end is the only record: nothing is left to be stopped.
-            let _ = observe(value, &Record { number, system, steps, time, state });
+            let _ = observe(value, &Record { number, system, steps, time, state, event: None });
             Ok(())
         })
     }

@@ -170,7 +170,7 @@ def test_members_that_failed_are_counted_where_they_are_found(tmp_path):
         HenonHeiles().ensemble(**given)
 
 
-def test_members_that_are_watched_fail_alone(tmp_path):
+def test_members_that_are_watched_fail_alone():
     q, v = starts(40, 0.1)
     q[13] = [np.nan, 0.0]
     q[30], v[30] = [0.0, 40.0], [0.0, 40.0]
@@ -195,8 +195,6 @@ def test_members_that_are_watched_fail_alone(tmp_path):
 
     with pytest.raises(KeyError, match="broken"):
         star.ensemble(q=q, v=v, events=[broken], **at)
-    with pytest.raises(TypeError, match="leave folder or events out"):
-        star.ensemble(q=q, v=v, events=[Plane([1.0, 0.0])], folder=tmp_path, **at)
     with pytest.raises(ValueError, match="rule: expected one of"):
         star.ensemble(q=q, v=v, events=[Plane([1.0, 0.0])], **at | {"rule": "euler"})
 

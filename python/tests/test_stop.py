@@ -19,6 +19,7 @@ MEMBERS = "q=np.full((3, 2), 0.1), v=[0.3, 0.1]"
 BOX = "low=[-1, -1], high=[1, 1], reach=[0.1, 0.1]"
 GENERATORS = "{str(k): (np.eye(2), [k, 1.0]) for k in range(200)}"
 PLANE = "events=[Plane([1.0, 0.0])]"
+FOLDER = "tempfile.mkdtemp()"
 
 # As long as a day, by the machine of today.
 FOR_EVER = 10**12
@@ -35,12 +36,13 @@ LONG = {
     "members by Gauss": f"{STAR}.ensemble(h=0.1, steps={FOR_EVER}, rule='gauss_4', {MEMBERS})",
     "members to a tolerance": f"{STAR}.ensemble(tolerance=1e-11, until=1e6, {MEMBERS})",
     "members with events": f"{STAR}.ensemble(h=0.1, steps={FOR_EVER}, {PLANE}, {MEMBERS})",
+    "members with events, in parts": f"{STAR}.ensemble(h=0.1, steps={FOR_EVER}, folder={FOLDER}, {PLANE}, {MEMBERS})",
     "members to a tolerance, with events": f"{STAR}.ensemble(tolerance=1e-11, until=1e6, {PLANE}, {MEMBERS})",
 }
 
 
 PROGRAM = (
-    "import signal\n"
+    "import signal, tempfile\n"
     "import numpy as np\n"
     "from dalembert_scenes import HenonHeiles, Plane, Ring\n"
     # A shell starts what runs in the background with Ctrl-C switched off.

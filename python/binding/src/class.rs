@@ -1,7 +1,7 @@
 //! The class of a system in Python, and what its methods do.
 
 use std::path::PathBuf;
-use std::sync::{Mutex, PoisonError, RwLock};
+use std::sync::{PoisonError, RwLock};
 
 use numpy::PyUntypedArrayMethods;
 use pyo3::exceptions::{PyAttributeError, PyTypeError, PyValueError};
@@ -21,7 +21,7 @@ use crate::record::Stop;
 use crate::reports::{EnergyLedger, Symmetry};
 use crate::results::{Run, partial};
 use crate::watch::{Watch, watched};
-use crate::watching;
+use crate::watching::{self, Raised};
 
 /// Under which name a class has its [`KindObject`].
 pub const KIND: &str = "_kind";
@@ -329,16 +329,10 @@ impl System {
         if steps.is_none() && given.inputs.len() > kind.inputs() {
             return Err(PyValueError::new_err("u: a run to a tolerance holds one input"));
         }
-        let raised = Mutex::new(None);
+        let raised = Raised::default();
         let events = watching::functions(py, events, kind.coordinates(), &raised)?;
-        let asked = Asked {
-            start: given.start(),
-            stepping,
-            every,
-            is_differentiated: derivatives,
-            events: &events,
-            is_tried: false,
-        };
+        let asked =
+            Asked { start: given.start(), stepping, every, is_differentiated: derivatives, events: &events };
         let told = |py: Python<'_>, far: (u64, u64)| {
             progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, far).map(drop))
         };
@@ -351,8 +345,7 @@ impl System {
         match ran.stop.take() {
             None | Some(Stop::Interrupted) => {}
             Some(Stop::Events(error)) => {
-                let raised = raised.lock().unwrap_or_else(PoisonError::into_inner).take();
-                return Err(raised.unwrap_or_else(|| of_events(py, &error)));
+                return Err(raised.take().unwrap_or_else(|| of_events(py, &error)));
             }
             Some(Stop::TooLarge(reason)) => return Err(of_memory(&reason)),
             Some(Stop::Failed(failure)) => {
@@ -371,7 +364,9 @@ impl System {
     /// Many members, each a system and a start of its own, on all cores: each is bit by bit its own `run`.
     ///
     /// q, v, p and u are one row for all, or one for each member; `fields` has fields that differ, one row for each. Members
-    /// that fail do not stop the others: their rows are NaN, and `failures` says why.
+    /// that fail do not stop the others: their rows are NaN, and `failures` says why. To a tolerance a member
+    /// is run again by another choice where its error passes the one asked for, watched or not: it fails where
+    /// none keeps it.
     ///
     /// With a folder the results go there as Parquet files, one for each part of the members. A part is there whole or
     /// not at all, and one that is there is not computed again: killed and started again, the same call does what is missing.
@@ -381,8 +376,9 @@ impl System {
     /// q, v, p, u, t, h, steps, tolerance, until, rule : as of `run`
     /// every : steps from one record to the next; unless said, the end alone is recorded
     /// fields : a dict of fields that differ from member to member
-    /// events : as of `run`; `events` of the result has those of all members, `t` the end of each. Members are then run one by
-    ///     one, and have no folder
+    /// events : as of `run`; `events` of the result has those of all members, `t` the end of each. Members
+    ///     are then run one by one. In parts events are rows among the records, with the function's place in
+    ///     the list in the column `event`
     /// folder : where parts go
     /// members_per_part : members of a part
     /// first : the number of the first member, which begins a part
@@ -423,14 +419,9 @@ impl System {
             ));
         }
         let model = self.model();
-        let raised = Mutex::new(None);
+        let raised = Raised::default();
         let events = watching::functions(py, events, model.kind().coordinates(), &raised)?;
         let parts = folder.map(|folder| (folder, members_per_part));
-        if parts.is_some() && !events.is_empty() {
-            return Err(PyTypeError::new_err(
-                "events: parts have no room for them; leave folder or events out",
-            ));
-        }
         let given = ensemble::Given {
             q,
             v,

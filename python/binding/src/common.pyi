@@ -349,7 +349,7 @@ class System:
         u: _Numbers | None = None,
         t: float | None = None,
         fields: dict[str, Any] | None = None,
-        events: None = None,
+        events: Sequence[Plane | Callable[[float, _Array, _Array], float]] | None = None,
         folder: str | PathLike[str],
         members_per_part: int = 65_536,
         first: int = 0,

@@ -1,12 +1,11 @@
 //! Ensembles as Python sees them: what is given, how it is watched, what is returned.
 
 use core::any::Any;
-use core::sync::atomic::Ordering;
+use core::sync::atomic::{AtomicU64, Ordering};
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
-use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use dalembert_ensemble::parts::{self, PartsError};
@@ -25,8 +24,9 @@ use crate::many::{Asked, Control, FieldOfMembers, FoundOfMembers, Kept, NoResult
 use crate::model::{Kind, Model};
 use crate::offer::Stepping;
 use crate::pickled::{Reduced, reduced};
+use crate::pool;
 use crate::watch::PATIENCE;
-use crate::{pool, watched};
+use crate::watching::Raised;
 
 /// The states of all members, one row each.
 #[pyclass(frozen, get_all)]
@@ -143,7 +143,7 @@ pub struct Given<'a, 'py> {
     /// Events to look for in the run of each.
     pub events: &'a [Event<'a>],
     /// The exception that an event function has raised.
-    pub raised: &'a Mutex<Option<PyErr>>,
+    pub raised: &'a Raised,
     /// Where parts go, and their size.
     pub parts: Option<(PathBuf, u64)>,
     /// Threads; those of the machine unless said.
@@ -218,21 +218,18 @@ pub fn run<'py>(py: Python<'py>, model: &dyn Model, given: Given<'_, 'py>) -> Py
         fields: &fields,
         stepping: given.stepping,
         every: given.every,
+        events: given.events,
     };
     let pool = pool::of(py, given.threads)?;
-    let control = Control::default();
+    let control = Control { cancel: given.raised.cancel(), done: AtomicU64::new(0) };
     let parts = given.parts.as_ref();
     let work = || match parts {
         Some((folder, size)) => model.written(&asked, &control, folder, *size).map(Results::Files),
-        None if !given.events.is_empty() => {
-            watched::kept(model, &asked, given.events, &control).map(Results::Arrays)
-        }
         None => model.kept(&asked, &control).map(Results::Arrays),
     };
     let look = |py: Python<'_>| {
         py.check_signals()?;
-        let raised = given.raised.lock().unwrap_or_else(PoisonError::into_inner).take();
-        raised.map_or(Ok(()), Err)?;
+        given.raised.take().map_or(Ok(()), Err)?;
         let done = control.done.load(Ordering::Relaxed);
         given.progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (done, members)).map(drop))
     };
@@ -294,7 +291,7 @@ fn fields(
 /// Runs `work` on a thread of its own, while this one asks `look` from time to time whether to go on.
 fn followed<T: Send>(
     py: Python<'_>,
-    control: &Control,
+    control: &Control<'_>,
     look: &(dyn Fn(Python<'_>) -> PyResult<()> + Sync),
     work: &(dyn Fn() -> T + Sync),
 ) -> PyResult<T> {

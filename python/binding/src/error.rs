@@ -9,7 +9,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyModule, PyType};
 
 use crate::arrays::to_array;
-use crate::many::{Failed, WhyFailed};
+use crate::many::Failed;
 use crate::record::Failure;
 use crate::refusal::Refusal;
 
@@ -110,15 +110,10 @@ pub fn of_member<'py>(py: Python<'py>, failed: &Failed) -> PyResult<Bound<'py, P
     let Failed { number, error, time, state } = failed;
     let message = format!("member {number}, at t = {time}: {error}");
     match error {
-        WhyFailed::Member(MemberError::Step(error)) => {
-            step_error(py, message, error, None, *time, state, None)
-        }
-        WhyFailed::Member(MemberError::Tolerance(_)) => classes(py)?.tolerance.bind(py).call1((message,)),
-        WhyFailed::Member(MemberError::Panicked) => {
-            Ok(PyRuntimeError::new_err(message).into_value(py).into_bound(py).into_any())
-        }
-        WhyFailed::Events(_) => classes(py)?.event.bind(py).call1((message,)),
-        WhyFailed::Member(_) => classes(py)?.breach.bind(py).call1((message,)),
+        MemberError::Step(error) => step_error(py, message, error, None, *time, state, None),
+        MemberError::Tolerance(_) => classes(py)?.tolerance.bind(py).call1((message,)),
+        MemberError::Event(_) => classes(py)?.event.bind(py).call1((message,)),
+        _ => Ok(PyRuntimeError::new_err(message).into_value(py).into_bound(py).into_any()),
     }
 }
 

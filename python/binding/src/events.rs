@@ -5,7 +5,7 @@ use core::fmt;
 use dalembert::nalgebra::SVector;
 use dalembert::run::Run;
 use dalembert::run::between::{Divisible, Moment};
-use dalembert::run::events::{Crossing, EventError, Watch, Watched};
+use dalembert::run::events::{Crossing, Event as Happened, EventError, Watch, Watched};
 use dalembert::step::Step;
 use dalembert::{Lagrangian, State, StepError};
 
@@ -34,7 +34,10 @@ pub enum Function<'a> {
 
 impl fmt::Debug for Function<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(if let Self::Plane { .. } = self { "a plane" } else { "a function" })
+        match self {
+            Self::Plane { q, v, value } => write!(f, "q·{q:?} + v·{v:?} = {value:?}"),
+            Self::Given(_) => f.write_str("a function"),
+        }
     }
 }
 
@@ -62,25 +65,23 @@ pub struct Found {
     pub p: Vec<f64>,
 }
 
-/// Events looked for along a run, and those found.
-#[derive(Debug)]
+impl Found {
+    /// One more, of a run that begins at the time `origin`.
+    pub fn add<const N: usize>(&mut self, origin: f64, event: &Happened<f64, N>) {
+        self.t.push(origin + event.time);
+        self.q.extend_from_slice(event.state.q.as_slice());
+        self.v.extend_from_slice(event.velocity.as_slice());
+        self.p.extend_from_slice(event.state.p.as_slice());
+    }
+}
+
+/// Events to be looked for along a run.
+#[derive(Clone, Copy, Debug)]
 pub struct Events<'a> {
     /// At most [`MOST`].
     pub asked: &'a [Event<'a>],
     /// The time at the start of the run.
     pub origin: f64,
-    /// Of each function.
-    pub found: Vec<Found>,
-    /// Why no more are looked for.
-    pub error: Option<EventError>,
-}
-
-impl Events<'_> {
-    /// Begins with another run.
-    pub fn begin(&mut self) {
-        self.found = vec![Found::default(); self.asked.len()];
-        self.error = None;
-    }
 }
 
 /// A function of the index of a node, of q there and of v.
@@ -236,23 +237,18 @@ impl<L: Lagrangian<N, Scalar = f64>, const N: usize> Divisible<N> for BySome<'_,
 struct Watching<'t, 'r, 'e, L: Lagrangian<N, Scalar = f64>, G, const N: usize> {
     watch: Watch<'t, BySome<'r, L, N>, G, N, MOST>,
     asked: &'e [Event<'e>],
-    origin: f64,
-    found: &'e mut [Found],
-    error: &'e mut Option<EventError>,
     /// Where a terminal event has ended the run.
     end: Option<(f64, State<f64, N>)>,
 }
 
-/// Records `run` while it is watched for `events`.
+/// Records `run` while it is watched for events.
 pub(crate) fn watched<L, const N: usize>(
     run: &mut dyn Divided<L, N>,
-    events: &mut Events<'_>,
+    Events { asked, origin }: Events<'_>,
     record: &mut dyn FnMut(&mut dyn Motion<N>),
 ) where
     L: Lagrangian<N, Scalar = f64>,
 {
-    let Events { asked, origin, found, error } = events;
-    let (asked, origin) = (*asked, *origin);
     let mut run = BySome(run);
     let functions = |at: &Moment<'_, L, N>| {
         let mut values = [1.0; MOST];
@@ -272,7 +268,7 @@ pub(crate) fn watched<L, const N: usize>(
     let mut crossings = [Crossing::Either; MOST];
     crossings.iter_mut().zip(asked).for_each(|(crossing, event)| *crossing = event.crossing);
     let watch = Watch::new(&mut run, functions).crossing(crossings);
-    record(&mut Watching { watch, asked, origin, found, error, end: None });
+    record(&mut Watching { watch, asked, end: None });
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -284,29 +280,17 @@ where
     L: Lagrangian<N, Scalar = f64>,
     G: Fn(&Moment<'_, L, N>) -> [f64; MOST],
 {
-    fn advance(&mut self) -> Option<Result<u32, StepError>> {
-        loop {
-            match self.watch.advance()? {
-                Ok(Watched::Step(step)) => return Some(Ok(step.report.iterations)),
-                Ok(Watched::Event(event)) => {
-                    if let Some(found) = self.found.get_mut(event.index) {
-                        found.t.push(self.origin + event.time);
-                        found.q.extend_from_slice(event.state.q.as_slice());
-                        found.v.extend_from_slice(event.velocity.as_slice());
-                        found.p.extend_from_slice(event.state.p.as_slice());
-                    }
-                    if self.asked.get(event.index).is_some_and(|event| event.is_terminal) {
-                        self.end = Some((event.time, event.state));
-                        return None;
-                    }
-                }
-                Err(EventError::Step(error)) => return Some(Err(error)),
-                Err(error) => {
-                    *self.error = Some(error);
-                    return None;
-                }
-            }
+    fn advance(&mut self) -> Option<Result<Watched<f64, N>, EventError>> {
+        if self.end.is_some() {
+            return None;
         }
+        let next = self.watch.advance()?;
+        if let Ok(Watched::Event(event)) = &next
+            && self.asked.get(event.index).is_some_and(|asked| asked.is_terminal)
+        {
+            self.end = Some((event.time, event.state));
+        }
+        Some(next)
     }
 
     fn state(&self) -> &State<f64, N> {

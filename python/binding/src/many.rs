@@ -1,6 +1,5 @@
 //! An ensemble of a system: what is asked of it, and what is kept.
 
-use core::fmt;
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::collections::TryReserveError;
@@ -8,20 +7,21 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 use dalembert::nalgebra::SVector;
-use dalembert::run::events::EventError;
 use dalembert::system::sampled_forces;
 use dalembert::{Lagrangian, State, StepError};
 use dalembert_ensemble::parts::{self, PartsError};
-use dalembert_ensemble::{Ensemble, Failure, MemberError, Outcome, Plan, Progress, Record as OfMember};
+use dalembert_ensemble::{
+    Ensemble, Failure, MemberError, Outcome, Plan, Progress, Record as OfMember, Study,
+};
 use dalembert_face::{Described, Fields, Number};
 use twox_hash::XxHash3_128;
 
-use crate::events::Found;
+use crate::events::{Event, Events, Found};
 use crate::motion::measured;
 use crate::offer::{Offers, Stepping};
-use crate::record::Record;
 use crate::refusal::Refusal;
 use crate::together::BySome;
+use crate::watched::{Unwatched, Watched};
 
 /// A row of numbers for each member, or one for all.
 #[derive(Clone, Copy, Debug)]
@@ -67,6 +67,8 @@ pub struct Asked<'a> {
     pub stepping: Stepping<'a>,
     /// Steps from one record to the next; the end alone if there are none.
     pub every: Option<u64>,
+    /// Events to look for in the run of each.
+    pub events: &'a [Event<'a>],
 }
 
 impl Asked<'_> {
@@ -80,10 +82,10 @@ impl Asked<'_> {
 }
 
 /// How others follow an ensemble, and end it.
-#[derive(Debug, Default)]
-pub struct Control {
+#[derive(Debug)]
+pub struct Control<'a> {
     /// Whether to end.
-    pub cancel: AtomicBool,
+    pub cancel: &'a AtomicBool,
     /// Members that are done.
     pub done: AtomicU64,
 }
@@ -118,54 +120,17 @@ pub struct FoundOfMembers {
     pub found: Found,
 }
 
-impl FoundOfMembers {
-    /// The events of the next member.
-    pub fn add(&mut self, number: u64, found: Found) {
-        self.members.resize(self.members.len() + found.t.len(), number.cast_signed());
-        let all = &mut self.found;
-        for (all, found) in
-            [(&mut all.t, found.t), (&mut all.q, found.q), (&mut all.v, found.v), (&mut all.p, found.p)]
-        {
-            all.extend(found);
-        }
-    }
-}
-
 /// A member that is not what was asked for.
 #[derive(Clone, Debug)]
 pub struct Failed {
     /// Its number.
     pub number: u64,
     /// Why.
-    pub error: WhyFailed,
+    pub error: MemberError,
     /// The time of its last good state.
     pub time: f64,
     /// That state, q and p; empty where it has no start.
     pub state: [Vec<f64>; 2],
-}
-
-/// Why a member is not what was asked for.
-#[derive(Clone, Debug)]
-pub enum WhyFailed {
-    /// Its steps, or their error.
-    Member(MemberError),
-    /// Its events cannot be followed.
-    Events(EventError),
-}
-
-impl From<MemberError> for WhyFailed {
-    fn from(error: MemberError) -> Self {
-        Self::Member(error)
-    }
-}
-
-impl fmt::Display for WhyFailed {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Member(error) => error.fmt(f),
-            Self::Events(error) => error.fmt(f),
-        }
-    }
 }
 
 /// Counts of the parts and of the members that failed, and the files.
@@ -223,16 +188,49 @@ fn start<'a, S: Offers<N>, const N: usize>(
 
 /// The steps that are asked for.
 fn by_some<'a, S: Offers<N>, const N: usize>(
-    asked: &Asked<'_>,
+    asked: &'a Asked<'_>,
+    control: &'a Control<'_>,
 ) -> Result<BySome<'a, S::View<'a>, N>, Refusal> {
     let steps = match asked.stepping {
         Stepping::Fixed { h, steps, rule } => {
             let plan = Plan { h, steps, every: asked.every.map(|every| every.max(1)), error: None };
-            S::offered(rule)?.steps.ok_or(Refusal::Rule)?.together(plan)
+            Unwatched::Fixed(S::offered(rule)?.steps.ok_or(Refusal::Rule)?, plan)
         }
-        Stepping::ToError(asked) => S::steps_to_error().ok_or(Refusal::NoError)?.together(asked),
+        Stepping::ToError(asked) => Unwatched::ToError(S::steps_to_error().ok_or(Refusal::NoError)?, asked),
     };
-    Ok(BySome(steps))
+    Ok(BySome(match steps {
+        steps if !asked.events.is_empty() => {
+            let events = Events { asked: asked.events, origin: asked.time };
+            Box::new(Watched { steps, events, done: &control.done })
+        }
+        Unwatched::Fixed(steps, plan) => steps.together(plan),
+        Unwatched::ToError(steps, asked) => steps.together(asked),
+    }))
+}
+
+/// The members that are asked for, by the steps that are.
+#[allow(clippy::type_complexity, reason = "the function that makes members has no name")]
+fn study<'a, S: Offers<N>, const N: usize>(
+    fields: &'a [S::Fields],
+    asked: &'a Asked<'_>,
+    control: &'a Control<'_>,
+) -> Result<
+    Study<
+        'a,
+        impl Fn(u64) -> Result<(S::View<'a>, State<f64, N>), StepError> + Sync,
+        BySome<'a, S::View<'a>, N>,
+        S::View<'a>,
+        N,
+    >,
+    NoResult,
+> {
+    let steps = by_some::<S, N>(asked, control).map_err(NoResult::Refused)?;
+    let member = |number: u64| start::<S, N>(fields, asked, (number - asked.first) as usize);
+    let told = |Progress { done, .. }| {
+        control.done.store(done, Ordering::Relaxed);
+        ControlFlow::Continue(())
+    };
+    Ok(Ensemble::new(member).stepped(steps).cancelled_by(control.cancel).on_progress(told))
 }
 
 /// How many records a member has.
@@ -250,26 +248,20 @@ fn records(asked: &Asked<'_>) -> u64 {
 pub fn kept<S: Offers<N>, const N: usize>(
     system: &S::Fields,
     asked: &Asked<'_>,
-    control: &Control,
+    control: &Control<'_>,
 ) -> Result<Kept, NoResult> {
     let kept = Kept::with_room(asked, N)?;
     let last = asked.first + asked.members as u64;
     let fields = fields_of_members::<S, N>(system, asked);
-    let steps = by_some::<S, N>(asked).map_err(NoResult::Refused)?;
-    let member = |number: u64| start::<S, N>(&fields, asked, (number - asked.first) as usize);
-    let study = Ensemble::new(member).stepped(steps).cancelled_by(&control.cancel).on_progress(
-        |Progress { done, .. }| {
-            control.done.store(done, Ordering::Relaxed);
-            ControlFlow::Continue(())
-        },
-    );
+    let study = study::<S, N>(&fields, asked, control)?;
     let observe = |rows: &mut Vec<Row<N>>, record: &OfMember<'_, S::View<'_>, N>| {
         let of = |system: &S::View<'_>| measured(system, &record.state);
         // Of a member that panics there are none.
         let measured = catch_unwind(AssertUnwindSafe(|| record.system.later(record.time, of)));
         let measured = measured.ok().and_then(Result::ok);
         let (v, energy) = measured.unwrap_or_else(|| (SVector::repeat(f64::NAN), f64::NAN));
-        rows.push(Row { t: asked.time + record.time, q: record.state.q, v, p: record.state.p, energy });
+        let (t, State { q, p }, event) = (asked.time + record.time, record.state, record.event);
+        rows.push(Row { t, q, v, p, energy, event });
     };
     let add = |kept: &mut Kept, outcome: Outcome<Vec<Row<N>>, f64, N>| kept.add(outcome, asked.time);
     study.reduce(asked.first..last, |_| Vec::new(), observe, kept, add).map_err(|_| NoResult::Cancelled)
@@ -282,20 +274,13 @@ pub fn kept<S: Offers<N>, const N: usize>(
 pub fn written<S: Offers<N>, const N: usize>(
     system: &S::Fields,
     asked: &Asked<'_>,
-    control: &Control,
+    control: &Control<'_>,
     folder: &Path,
     members_per_part: u64,
 ) -> Result<Written, NoResult> {
     let last = asked.first + asked.members as u64;
     let fields = fields_of_members::<S, N>(system, asked);
-    let steps = by_some::<S, N>(asked).map_err(NoResult::Refused)?;
-    let member = |number: u64| start::<S, N>(&fields, asked, (number - asked.first) as usize);
-    let study = Ensemble::new(member).stepped(steps).cancelled_by(&control.cancel).on_progress(
-        |Progress { done, .. }| {
-            control.done.store(done, Ordering::Relaxed);
-            ControlFlow::Continue(())
-        },
-    );
+    let study = study::<S, N>(&fields, asked, control)?;
     let digest = |number: u64| digest(&fields, asked, (number - asked.first) as usize);
     let parts = study.parts(folder).members_per_part(members_per_part).identified_by(digest);
     let parts = parts.made_within(asked.first..last).metadata("dalembert.model", model::<S, N>());
@@ -387,6 +372,8 @@ struct Row<const N: usize> {
     v: SVector<f64, N>,
     p: SVector<f64, N>,
     energy: f64,
+    /// The event function that vanishes there.
+    event: Option<usize>,
 }
 
 impl Kept {
@@ -394,9 +381,10 @@ impl Kept {
     ///
     /// # Errors
     /// There is not so much.
-    pub fn with_room(asked: &Asked<'_>, n: usize) -> Result<Self, NoResult> {
+    fn with_room(asked: &Asked<'_>, n: usize) -> Result<Self, NoResult> {
         let records = usize::try_from(records(asked)).unwrap_or(usize::MAX);
         let mut kept = Self { records, ..Self::default() };
+        kept.events.resize_with(asked.events.len(), FoundOfMembers::default);
         let rows = asked.members.saturating_mul(records);
         for (numbers, width) in kept.columns(n) {
             numbers.try_reserve_exact(rows.saturating_mul(width)).map_err(NoResult::TooLarge)?;
@@ -418,26 +406,26 @@ impl Kept {
         }
     }
 
-    /// The records of the next member from the `first` on; NaN where it has no more.
-    pub fn add_record(&mut self, record: &Record, first: usize, n: usize) {
-        let members = self.t.len() / self.records;
-        let from = [&record.t, &record.q, &record.v, &record.p, &record.energy];
-        for ((numbers, width), from) in self.columns(n).into_iter().zip(from) {
-            numbers.extend_from_slice(&from[first * width..]);
-        }
-        self.fill(members + 1, n);
-    }
-
-    /// The records of the next member; NaN where it has failed.
+    /// The records and events of the next member; NaN where it has failed.
     fn add<const N: usize>(&mut self, outcome: Outcome<Vec<Row<N>>, f64, N>, origin: f64) {
         let Outcome { number, value, failure } = outcome;
         let members = self.t.len() / self.records;
-        for Row { t, q, v, p, energy } in value {
-            self.t.push(t);
-            self.q.extend_from_slice(q.as_slice());
-            self.v.extend_from_slice(v.as_slice());
-            self.p.extend_from_slice(p.as_slice());
-            self.energy.push(energy);
+        for Row { t, q, v, p, energy, event } in value {
+            let vectors = match event.and_then(|event| self.events.get_mut(event)) {
+                None => {
+                    self.t.push(t);
+                    self.energy.push(energy);
+                    [&mut self.q, &mut self.v, &mut self.p]
+                }
+                Some(FoundOfMembers { members, found }) => {
+                    members.push(number.cast_signed());
+                    found.t.push(t);
+                    [&mut found.q, &mut found.v, &mut found.p]
+                }
+            };
+            for (all, vector) in vectors.into_iter().zip([q, v, p]) {
+                all.extend_from_slice(vector.as_slice());
+            }
         }
         self.fill(members + 1, N);
         if let Some(Failure { error, last, .. }) = failure {
@@ -445,7 +433,7 @@ impl Kept {
             let state = last.map_or([Vec::new(), Vec::new()], |last| {
                 [last.state.q, last.state.p].map(|vector| vector.as_slice().to_vec())
             });
-            self.failures.push(Failed { number, error: error.into(), time, state });
+            self.failures.push(Failed { number, error, time, state });
         }
     }
 }

@@ -10,7 +10,7 @@ use dalembert::{Lagrangian, State, StepError};
 use dalembert_face::{Described, Field, Fields, Number};
 
 use crate::checks::{Affine, Ledger, Region, Symmetry};
-use crate::events::{Event, Events, Found};
+use crate::events::{Event, Events};
 use crate::many::{self, Asked, Control, Kept, NoResult, Written};
 use crate::motion::{Given, Motion, measured};
 use crate::offer::{Offer, Offers, Stepping};
@@ -96,7 +96,7 @@ pub trait Model: Send + Sync {
     ///
     /// # Errors
     /// Why there is nothing.
-    fn kept(&self, asked: &Asked<'_>, control: &Control) -> Result<Kept, NoResult>;
+    fn kept(&self, asked: &Asked<'_>, control: &Control<'_>) -> Result<Kept, NoResult>;
 
     /// Records of many members, as files.
     ///
@@ -105,7 +105,7 @@ pub trait Model: Send + Sync {
     fn written(
         &self,
         asked: &Asked<'_>,
-        control: &Control,
+        control: &Control<'_>,
         folder: &Path,
         members_per_part: u64,
     ) -> Result<Written, NoResult>;
@@ -158,8 +158,6 @@ pub struct Run<'a> {
     pub is_differentiated: bool,
     /// Events to look for on the way.
     pub events: &'a [Event<'a>],
-    /// Whether, to an error asked for, as many runs are tried as it takes to keep it.
-    pub is_tried: bool,
 }
 
 /// The records of a run, whole or up to where it stopped.
@@ -171,8 +169,6 @@ pub struct Ran {
     pub stop: Option<Stop>,
     /// The choice made for the error asked for, and where the run passed it.
     pub guarded: Option<Guarded>,
-    /// The events of each function.
-    pub events: Vec<Found>,
 }
 
 /// A step with its derivatives, row by row.
@@ -243,13 +239,16 @@ impl<S: Offers<N>, const N: usize> ModelOf<S, N> {
         Given { inputs: start.inputs, time: start.time }
     }
 
+    /// The system as the run begins.
+    fn view(&self, start: &Start<'_>) -> S::View<'_> {
+        S::view(&self.fields, &start.inputs[..S::Fields::INPUTS], start.time)
+    }
+
     fn state(&self, start: &Start<'_>) -> Result<State<f64, N>, Refusal> {
         let q = SVector::from_column_slice(start.q);
         let state = match start.motion {
             MotionGiven::Velocity(v) => {
-                let input = &start.inputs[..S::Fields::INPUTS];
-                let system = S::view(&self.fields, input, start.time);
-                State::from_velocity(&system, q, SVector::<f64, N>::from_column_slice(v))
+                State::from_velocity(&self.view(start), q, SVector::<f64, N>::from_column_slice(v))
             }
             MotionGiven::Momentum(p) => Ok(State { q, p: SVector::from_column_slice(p) }),
         };
@@ -280,68 +279,48 @@ impl<S: Offers<N>, const N: usize> Model for ModelOf<S, N> {
     }
 
     fn run(&self, run: &Run<'_>, watch: &Watch<'_>) -> Result<Ran, Refusal> {
-        let Run { start: given, stepping, every, is_differentiated, events: asked, is_tried } = run;
+        let Run { start: given, stepping, every, is_differentiated, events: asked } = run;
         let start = self.state(given)?;
-        let found = vec![Found::default(); asked.len()];
-        let mut events = Events { asked, origin: given.time, found, error: None };
-        let mut watched = (!asked.is_empty()).then_some(&mut events);
+        let origin = given.time;
+        let events = (!asked.is_empty()).then_some(Events { asked, origin });
         let mut ran = (Record::default(), None);
+        let mut record = |motion: &mut dyn Motion<N>, steps| {
+            ran = Record::of(motion, &Plan { steps, every: *every, origin, events: asked.len() }, watch);
+        };
         let mut guarded = None;
-        let is_called_off = || watch.is_called_off();
-        let told = Told::when(&is_called_off);
         match *stepping {
-            Stepping::Fixed { h, steps, rule } => {
-                let plan = Plan { steps, every: *every, origin: given.time };
-                let mut record = |motion: &mut dyn Motion<N>| ran = Record::of(motion, &plan, watch);
+            Stepping::Fixed { h, steps: count, rule } => {
+                let mut record = |motion: &mut dyn Motion<N>| record(motion, count);
                 let Offer { steps, driven, .. } = S::offered(rule)?;
-                let has_one_input = given.inputs.len() == S::Fields::INPUTS;
-                let given = Self::given(given);
-                if has_one_input && !is_differentiated {
+                if given.inputs.len() == S::Fields::INPUTS && !is_differentiated {
                     let steps = steps.ok_or(Refusal::Rule)?;
-                    steps.run(&self.fields, given, h, &start, watched.take(), &mut record);
-                } else if watched.is_some() {
+                    steps.run(&self.view(given), h, &start, events, &mut record);
+                } else if events.is_some() {
                     return Err(Refusal::NotWatched);
                 } else {
                     let driven = driven.ok_or(Refusal::NotDriven)?;
+                    let given = Self::given(given);
                     driven.run(&self.fields, given, h, &start, *is_differentiated, &mut record);
-                }
-            }
-            Stepping::ToError(asked) if *is_tried => {
-                let steps = S::steps_to_error().ok_or(Refusal::NoError)?;
-                let mut record = |motion: &mut dyn Motion<N>, steps| {
-                    let plan = Plan { steps, every: *every, origin: given.time };
-                    ran = Record::of(motion, &plan, watch);
-                    if let (_, Some(Stop::Failed(failure))) = &ran { Some(failure.error) } else { None }
-                };
-                let given = Self::given(given);
-                let tried = steps.tried(&self.fields, given, asked, &start, &mut events, &mut record, told);
-                // A run that was called off says nothing of its error.
-                if !matches!(ran.1, Some(Stop::Interrupted | Stop::TooLarge(_))) {
-                    tried.map_err(Refusal::from)?;
                 }
             }
             Stepping::ToError(asked) => {
                 let steps = S::steps_to_error().ok_or(Refusal::NoError)?;
-                let mut record = |motion: &mut dyn Motion<N>, steps| {
-                    let plan = Plan { steps, every: *every, origin: given.time };
-                    ran = Record::of(motion, &plan, watch);
-                };
-                let given = Self::given(given);
-                let run = steps.run(&self.fields, given, asked, &start, watched.take(), &mut record, told);
+                let is_called_off = || watch.is_called_off();
+                let told = Told::when(&is_called_off);
+                let run = steps.run(&self.view(given), asked, &start, events, &mut record, told);
                 guarded = Some(run?);
             }
         }
         let (record, stop) = ran;
-        let stop = stop.or_else(|| events.error.take().map(Stop::Events));
-        Ok(Ran { record, stop, guarded, events: events.found })
+        Ok(Ran { record, stop, guarded })
     }
 
     fn linearized(&self, start: &Start<'_>, h: f64, rule: Option<&str>) -> Result<Linearized, Refusal> {
         let state = self.state(start)?;
-        let given = Self::given(start);
+        let system = self.view(start);
         let linearized = match S::offered(rule)? {
-            Offer { driven: Some(driven), .. } => driven.linearized(&self.fields, given, h, &state),
-            Offer { differentiated: Some(steps), .. } => steps.linearized(&self.fields, given, h, &state),
+            Offer { driven: Some(driven), .. } => driven.linearized(&system, h, &state),
+            Offer { differentiated: Some(steps), .. } => steps.linearized(&system, h, &state),
             _ => return Err(Refusal::NotDriven),
         };
         let taken = linearized.map_err(|error| refused(start, error))?;
@@ -376,14 +355,14 @@ impl<S: Offers<N>, const N: usize> Model for ModelOf<S, N> {
         checks.ledger(&self.fields, Self::given(start), h, &state, steps, watch)
     }
 
-    fn kept(&self, asked: &Asked<'_>, control: &Control) -> Result<Kept, NoResult> {
+    fn kept(&self, asked: &Asked<'_>, control: &Control<'_>) -> Result<Kept, NoResult> {
         many::kept::<S, N>(&self.fields, asked, control)
     }
 
     fn written(
         &self,
         asked: &Asked<'_>,
-        control: &Control,
+        control: &Control<'_>,
         folder: &Path,
         members_per_part: u64,
     ) -> Result<Written, NoResult> {

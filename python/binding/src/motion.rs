@@ -1,6 +1,7 @@
 //! Runs without the types of their systems and methods: what a record asks of them.
 
 use dalembert::nalgebra::SVector;
+use dalembert::run::events::{EventError, Watched};
 use dalembert::run::{DrivenTrajectory, Run};
 use dalembert::step::{Flow, Linearizable, Memory};
 use dalembert::{Lagrangian, State, StepError};
@@ -12,8 +13,8 @@ use crate::system::System;
 
 /// A run while it is recorded.
 pub trait Motion<const N: usize> {
-    /// Takes a step; its iterations. `None` where the run has ended.
-    fn advance(&mut self) -> Option<Result<u32, StepError>>;
+    /// Takes a step, or goes on to an event of the one that follows. `None` where the run has ended.
+    fn advance(&mut self) -> Option<Result<Watched<f64, N>, EventError>>;
 
     /// The present state.
     fn state(&self) -> &State<f64, N>;
@@ -44,8 +45,8 @@ where
     L: Lagrangian<N, Scalar = f64>,
     T: Run<N, Scalar = f64>,
 {
-    fn advance(&mut self) -> Option<Result<u32, StepError>> {
-        self.run.next().map(|step| step.map(|step| step.report.iterations))
+    fn advance(&mut self) -> Option<Result<Watched<f64, N>, EventError>> {
+        self.run.next().map(|step| step.map(Watched::Step).map_err(EventError::from))
     }
 
     fn state(&self) -> &State<f64, N> {
@@ -126,17 +127,17 @@ where
     K: for<'v> Memory<S::View<'v>, M, N>,
     S::Parameters: for<'v> ByParameters<S::View<'v>, M, N>,
 {
-    fn advance(&mut self) -> Option<Result<u32, StepError>> {
+    fn advance(&mut self) -> Option<Result<Watched<f64, N>, EventError>> {
         let view = self.view();
-        let report = match &mut self.dependence {
-            None => self.run.advance(&view).map(|step| step.report),
+        let step = match &mut self.dependence {
+            None => self.run.advance(&view),
             Some(dependence) => self.run.advance_linearized(&view).and_then(|taken| {
                 dependence.follow(&taken.by_state()?, S::Parameters::columns(&taken)?.as_ref());
-                Ok(taken.step().report)
+                Ok(*taken.step())
             }),
         };
         self.taken += 1;
-        Some(report.map(|report| report.iterations))
+        Some(step.map(Watched::Step).map_err(EventError::from))
     }
 
     fn state(&self) -> &State<f64, N> {

@@ -74,11 +74,10 @@ pub trait Steps<S: System<N>, const N: usize>: Send + Sync {
     /// A run from `start`, with one input held.
     fn run(
         &self,
-        fields: &S::Fields,
-        given: Given<'_>,
+        system: &S::View<'_>,
         h: f64,
         start: &State<f64, N>,
-        events: Option<&mut Events<'_>>,
+        events: Option<Events<'_>>,
         record: Record<'_, N>,
     );
 
@@ -94,8 +93,7 @@ pub trait DifferentiatedSteps<S: System<N>, const N: usize>: Send + Sync {
     /// A [`StepError`].
     fn linearized(
         &self,
-        fields: &S::Fields,
-        given: Given<'_>,
+        system: &S::View<'_>,
         h: f64,
         start: &State<f64, N>,
     ) -> Result<StepDerivatives<N>, StepError>;
@@ -120,8 +118,7 @@ pub trait DrivenSteps<S: System<N>, const N: usize>: Send + Sync {
     /// A [`StepError`].
     fn linearized(
         &self,
-        fields: &S::Fields,
-        given: Given<'_>,
+        system: &S::View<'_>,
         h: f64,
         start: &State<f64, N>,
     ) -> Result<StepDerivatives<N>, StepError>;
@@ -160,11 +157,10 @@ pub trait StepsToError<S: System<N>, const N: usize>: Send + Sync {
     /// A [`ToleranceError`].
     fn run(
         &self,
-        fields: &S::Fields,
-        given: Given<'_>,
+        system: &S::View<'_>,
         asked: ErrorAsked,
         start: &State<f64, N>,
-        events: Option<&mut Events<'_>>,
+        events: Option<Events<'_>>,
         record: &mut dyn FnMut(&mut dyn Motion<N>, u64),
         stop: Stop<'_>,
     ) -> Result<Guarded, ToleranceError>;
@@ -176,11 +172,10 @@ pub trait StepsToError<S: System<N>, const N: usize>: Send + Sync {
     /// A [`ToleranceError`].
     fn tried(
         &self,
-        fields: &S::Fields,
-        given: Given<'_>,
+        system: &S::View<'_>,
         asked: ErrorAsked,
         start: &State<f64, N>,
-        events: &mut Events<'_>,
+        events: Events<'_>,
         record: &mut dyn FnMut(&mut dyn Motion<N>, u64) -> Option<StepError>,
         stop: Stop<'_>,
     ) -> Result<(), ToleranceError>;
@@ -286,14 +281,13 @@ where
 {
     fn run(
         &self,
-        fields: &S::Fields,
-        given: Given<'_>,
+        system: &S::View<'_>,
         h: f64,
         start: &State<f64, N>,
-        events: Option<&mut Events<'_>>,
+        events: Option<Events<'_>>,
         record: Record<'_, N>,
     ) {
-        Steps::<S, N>::run(&By(self.0), fields, given, h, start, events, record);
+        Steps::<S, N>::run(&By(self.0), system, h, start, events, record);
     }
 
     fn together<'a>(&self, plan: Plan<f64>) -> Box<dyn Together<S::View<'a>, N> + 'a> {
@@ -328,17 +322,15 @@ where
 {
     fn run(
         &self,
-        fields: &S::Fields,
-        given: Given<'_>,
+        system: &S::View<'_>,
         h: f64,
         start: &State<f64, N>,
-        events: Option<&mut Events<'_>>,
+        events: Option<Events<'_>>,
         record: Record<'_, N>,
     ) {
-        let system = S::view(fields, given.inputs, given.time);
         let mut run = system.by(self.0, h).run(*start);
         match events {
-            None => record(&mut Of { system: &system, run: &mut run }),
+            None => record(&mut Of { system, run: &mut run }),
             Some(events) => watched(&mut run, events, record),
         }
     }
@@ -356,12 +348,10 @@ where
 {
     fn linearized(
         &self,
-        fields: &S::Fields,
-        given: Given<'_>,
+        system: &S::View<'_>,
         h: f64,
         start: &State<f64, N>,
     ) -> Result<StepDerivatives<N>, StepError> {
-        let system = S::view(fields, given.inputs, given.time);
         let (step, a) = system.by(self.0, h).linearized_step(start)?;
         Ok(StepDerivatives { step, a: matrix_rows(&a), b: None, by_parameters: None })
     }
@@ -409,14 +399,12 @@ where
 
     fn linearized(
         &self,
-        fields: &S::Fields,
-        given: Given<'_>,
+        system: &S::View<'_>,
         h: f64,
         start: &State<f64, N>,
     ) -> Result<StepDerivatives<N>, StepError> {
-        let system = S::view(fields, given.inputs, given.time);
         let mut run = DrivenTrajectory::<S::View<'static>, M, N>::new(h, *start);
-        let taken = run.advance_linearized(&system)?;
+        let taken = run.advance_linearized(system)?;
         let rows = |columns: &[Column<f64, N>]| (!columns.is_empty()).then(|| column_rows(columns));
         Ok(StepDerivatives {
             step: *taken.step(),
@@ -462,21 +450,19 @@ where
 {
     fn run(
         &self,
-        fields: &S::Fields,
-        given: Given<'_>,
+        system: &S::View<'_>,
         asked: ErrorAsked,
         start: &State<f64, N>,
-        events: Option<&mut Events<'_>>,
+        events: Option<Events<'_>>,
         record: &mut dyn FnMut(&mut dyn Motion<N>, u64),
         stop: Stop<'_>,
     ) -> Result<Guarded, ToleranceError> {
-        let system = S::view(fields, given.inputs, given.time);
         let request = system.to_error(asked.tolerance).until(asked.until).stopped_by(stop);
         let choice = request.choice(start)?;
         let mut run = choice.trajectory();
         let steps = choice.steps();
         match events {
-            None => record(&mut Of { system: &system, run: &mut run }, steps),
+            None => record(&mut Of { system, run: &mut run }, steps),
             Some(events) => watched(&mut run, events, &mut |motion| record(motion, steps)),
         }
         Ok(Guarded {
@@ -489,19 +475,16 @@ where
 
     fn tried(
         &self,
-        fields: &S::Fields,
-        given: Given<'_>,
+        system: &S::View<'_>,
         asked: ErrorAsked,
         start: &State<f64, N>,
-        events: &mut Events<'_>,
+        events: Events<'_>,
         record: &mut dyn FnMut(&mut dyn Motion<N>, u64) -> Option<StepError>,
         stop: Stop<'_>,
     ) -> Result<(), ToleranceError> {
-        let system = S::view(fields, given.inputs, given.time);
         let request = system.to_error(asked.tolerance).until(asked.until).stopped_by(stop);
         let reached = request.end_followed(start, |run| {
             let (steps, mut failure) = (run.choice().steps(), None);
-            events.begin();
             watched(run, events, &mut |motion| failure = record(motion, steps));
             failure.map_or(Ok(()), Err)
         });

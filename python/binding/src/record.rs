@@ -4,10 +4,11 @@ use std::collections::TryReserveError;
 
 use dalembert::StepError;
 use dalembert::run::Stop as Told;
-use dalembert::run::events::EventError;
+use dalembert::run::events::{EventError, Watched};
 use dalembert::tolerance::Breach;
 
 use crate::derivatives::{column_rows, matrix_rows};
+use crate::events::Found;
 use crate::motion::Motion;
 pub use crate::refusal::Failure;
 use crate::watch::Watch;
@@ -21,6 +22,8 @@ pub struct Plan {
     pub every: u64,
     /// The time at the start.
     pub origin: f64,
+    /// Event functions.
+    pub events: usize,
 }
 
 /// The records of a run, one after the other: vectors and matrices row by row.
@@ -44,6 +47,8 @@ pub struct Record {
     pub steps: u64,
     /// Iterations of the solver in all.
     pub iterations: u64,
+    /// The events of each function.
+    pub events: Vec<Found>,
 }
 
 /// Why a record ends before its run.
@@ -79,7 +84,7 @@ impl Record {
         plan: &Plan,
         watch: &Watch<'_>,
     ) -> (Self, Option<Stop>) {
-        let mut record = Self::default();
+        let mut record = Self { events: vec![Found::default(); plan.events], ..Self::default() };
         let stop = record.fill(motion, plan, watch).err();
         (record, stop)
     }
@@ -96,8 +101,15 @@ impl Record {
         let far = |taken| Some((taken, plan.steps));
         while self.steps < plan.steps {
             match motion.advance() {
-                Some(Ok(iterations)) => self.iterations += u64::from(iterations),
-                Some(Err(error)) => return Err(self.failed(motion, plan, error)),
+                Some(Ok(Watched::Step(step))) => self.iterations += u64::from(step.report.iterations),
+                Some(Ok(Watched::Event(event))) => {
+                    if let Some(found) = self.events.get_mut(event.index) {
+                        found.add(plan.origin, &event);
+                    }
+                    continue;
+                }
+                Some(Err(EventError::Step(error))) => return Err(self.failed(motion, plan, error)),
+                Some(Err(error)) => return Err(Stop::Events(error)),
                 None => {
                     // An event has ended the run between two records.
                     if self.t.last() != Some(&(plan.origin + motion.time())) {

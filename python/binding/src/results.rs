@@ -106,8 +106,10 @@ impl Run {
     /// # Errors
     /// Those of Python.
     pub fn new(py: Python<'_>, ran: Ran, n: usize, parameters: usize, h: f64, rule: &str) -> PyResult<Self> {
-        let Ran { mut record, guarded, events, .. } = ran;
-        let events = events.into_iter().map(|found| Py::new(py, Crossings::new(py, found, None, n)?));
+        let Ran { mut record, guarded, .. } = ran;
+        let events = core::mem::take(&mut record.events)
+            .into_iter()
+            .map(|found| Py::new(py, Crossings::new(py, found, None, n)?));
         let records = record.t.len();
         let matrices = |numbers: Vec<f64>, columns: usize| -> PyResult<Option<Py<PyArray3<f64>>>> {
             let has_any = !numbers.is_empty();

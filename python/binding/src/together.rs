@@ -5,7 +5,7 @@ use core::mem::replace;
 use core::ops::ControlFlow;
 
 use dalembert::run::Stop;
-use dalembert::{Lagrangian, StepError};
+use dalembert::{Lagrangian, State, StepError};
 use dalembert_ensemble::{Record, Slot, Stepping};
 
 /// Steps of many members by some method.
@@ -20,6 +20,12 @@ pub trait Together<L: Lagrangian<N>, const N: usize>: Sync {
 
     /// As [`Stepping::description`].
     fn description(&self) -> String;
+
+    /// As [`Stepping::has_events`].
+    fn has_events(&self) -> bool;
+
+    /// As [`Stepping::at_start`].
+    fn at_start(&self, system: &L, start: &State<L::Scalar, N>) -> Vec<f64>;
 }
 
 impl<L: Lagrangian<N>, T: Stepping<L, N>, const N: usize> Together<L, N> for T {
@@ -35,6 +41,14 @@ impl<L: Lagrangian<N>, T: Stepping<L, N>, const N: usize> Together<L, N> for T {
 
     fn description(&self) -> String {
         Stepping::description(self)
+    }
+
+    fn has_events(&self) -> bool {
+        Stepping::has_events(self)
+    }
+
+    fn at_start(&self, system: &L, start: &State<L::Scalar, N>) -> Vec<f64> {
+        Stepping::at_start(self, system, start)
     }
 }
 
@@ -69,5 +83,14 @@ impl<L: Lagrangian<N>, const N: usize> Stepping<L, N> for BySome<'_, L, N> {
 
     fn description(&self) -> String {
         self.0.description()
+    }
+
+    fn has_events(&self) -> bool {
+        self.0.has_events()
+    }
+
+    /// Numbers of event functions alone: fields and starts are told apart by digests of their own.
+    fn at_start(&self, system: &L, start: &State<L::Scalar, N>) -> Vec<f64> {
+        if self.0.has_events() { self.0.at_start(system, start) } else { Vec::new() }
     }
 }

@@ -1,134 +1,176 @@
-//! Members that are watched for events: each a run by itself, on whichever core is free.
+//! Steps of members that are watched for events: each a run by itself, its events among its records.
 
 use core::ops::ControlFlow;
-use core::sync::atomic::Ordering;
+use core::sync::atomic::{AtomicU64, Ordering};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use dalembert_ensemble::MemberError;
-use rayon::prelude::*;
+use dalembert::run::Stop;
+use dalembert::run::events::Watched as Next;
+use dalembert::tolerance::ToleranceError;
+use dalembert::{Lagrangian, State};
+use dalembert_ensemble::{End, Failure, MemberError, NoEnd, Plan, Record, Slot, Stepping, one_by_one};
 
-use crate::events::{Event, Found};
-use crate::many::{Asked, Control, Failed, Kept, NoResult, WhyFailed};
-use crate::model::{Model, MotionGiven, Ran, Run, Start};
-use crate::record::{Failure, Record, Stop};
-use crate::refusal::Refusal;
-use crate::watch::{Far, Watch};
+use crate::events::{Events, Function};
+use crate::motion::Motion;
+use crate::offer::{ErrorAsked, Steps, StepsToError};
+use crate::system::System;
 
-/// Members whose runs are held before they are added to the arrays.
-const HELD: usize = 16_384;
-
-/// A member after its run.
-struct Member {
-    record: Record,
-    /// Whether its last record is the end of the run.
-    has_end: bool,
-    events: Vec<Found>,
-    failed: Option<Failed>,
+/// The steps of members, and the events that are looked for.
+pub struct Watched<'a, S: System<N>, const N: usize> {
+    /// The steps.
+    pub steps: Unwatched<S, N>,
+    /// The events.
+    pub events: Events<'a>,
+    /// Members that are done.
+    pub done: &'a AtomicU64,
 }
 
-/// The states of all members as arrays, and their events.
-///
-/// # Errors
-/// Why there are none.
-pub fn kept(
-    model: &dyn Model,
-    asked: &Asked<'_>,
-    events: &[Event<'_>],
-    control: &Control,
-) -> Result<Kept, NoResult> {
-    let n = model.kind().coordinates();
-    let mut kept = Kept::with_room(asked, n)?;
-    kept.events.resize_with(events.len(), Default::default);
-    for first in (0..asked.members).step_by(HELD) {
-        let held = first..asked.members.min(first + HELD);
-        let members: Vec<_> =
-            held.into_par_iter().map(|member| run(model, asked, events, control, member)).collect();
-        for (member, ran) in (first..).zip(members) {
-            let Member { record, has_end, events, failed } = ran?;
-            // Where the end alone is asked for there is none of a run that failed, and the last row of others.
-            let first = match (asked.every, has_end) {
-                (Some(_), _) => 0,
-                (None, false) => record.t.len(),
-                (None, true) => record.t.len().saturating_sub(1),
-            };
-            kept.add_record(&record, first, n);
-            for (all, found) in kept.events.iter_mut().zip(events) {
-                all.add(asked.first + member as u64, found);
+/// Steps as members take them that are not watched.
+pub enum Unwatched<S, const N: usize> {
+    /// Steps of one size.
+    Fixed(Box<dyn Steps<S, N>>, Plan<f64>),
+    /// Steps that an error asked for needs: of as many runs as it takes.
+    ToError(Box<dyn StepsToError<S, N>>, ErrorAsked),
+}
+
+/// A run on its way. Its records are kept until it is known to be the member's.
+struct Run<'m, L: Lagrangian<N, Scalar = f64>, const N: usize> {
+    start: Record<'m, L, N>,
+    last: Record<'m, L, N>,
+    seen: Vec<Record<'m, L, N>>,
+    end: Result<(), NoEnd<f64, N>>,
+}
+
+impl<'m, L: Lagrangian<N, Scalar = f64>, const N: usize> Run<'m, L, N> {
+    fn new(number: u64, system: &'m L, state: State<f64, N>) -> Self {
+        let start = Record { number, system, steps: 0, time: 0.0, state, event: None };
+        Self { start, last: start, seen: Vec::new(), end: Ok(()) }
+    }
+
+    /// Follows `motion` from the start.
+    fn follow(&mut self, motion: &mut dyn Motion<N>, steps: u64, every: Option<u64>, stop: Stop<'_>) {
+        *self = Self::new(self.start.number, self.start.system, self.start.state);
+        self.end = self.go_on(motion, steps, every, stop);
+    }
+
+    fn go_on(
+        &mut self,
+        motion: &mut dyn Motion<N>,
+        steps: u64,
+        every: Option<u64>,
+        stop: Stop<'_>,
+    ) -> Result<(), NoEnd<f64, N>> {
+        if every.is_some() || steps == 0 {
+            self.seen.push(self.start);
+        }
+        let stride = every.unwrap_or(steps).max(1);
+        while self.last.steps < steps {
+            match motion.advance() {
+                Some(Ok(Next::Step(_))) => {
+                    let taken = self.last.steps + 1;
+                    self.last =
+                        Record { steps: taken, time: motion.time(), state: *motion.state(), ..self.last };
+                    if taken.is_multiple_of(stride) || taken == steps {
+                        self.seen.push(self.last);
+                    }
+                    if taken.is_multiple_of(Stop::STRIDE) && stop.is_asked() {
+                        return Err(NoEnd::Stopped);
+                    }
+                }
+                Some(Ok(Next::Event(event))) => {
+                    let (time, state, event) = (event.time, event.state, Some(event.index));
+                    self.seen.push(Record { time, state, event, ..self.last });
+                }
+                Some(Err(error)) => return Err(self.failed(error.into())),
+                // An event has ended the run.
+                None => {
+                    self.seen.push(Record { time: motion.time(), state: *motion.state(), ..self.last });
+                    break;
+                }
             }
-            kept.failures.extend(failed);
         }
+        Ok(())
     }
-    Ok(kept)
-}
 
-/// The run of one member.
-fn run(
-    model: &dyn Model,
-    asked: &Asked<'_>,
-    events: &[Event<'_>],
-    control: &Control,
-    member: usize,
-) -> Result<Member, NoResult> {
-    if control.cancel.load(Ordering::Relaxed) {
-        return Err(NoResult::Cancelled);
-    }
-    let mut system = model.copy();
-    for (field, entries) in asked.entries(member) {
-        for (index, entry) in entries.iter().enumerate() {
-            system.change_entry(field, index, *entry);
-        }
-    }
-    let other = asked.other.of(member);
-    let motion = if asked.is_velocity { MotionGiven::Velocity(other) } else { MotionGiven::Momentum(other) };
-    let start = Start { q: asked.q.of(member), motion, inputs: asked.inputs.of(member), time: asked.time };
-    let every = asked.every.unwrap_or(u64::MAX);
-    let run =
-        Run { start, stepping: asked.stepping, every, is_differentiated: false, events, is_tried: true };
-    let look = |_: Far| match control.cancel.load(Ordering::Relaxed) {
-        true => ControlFlow::Break(()),
-        false => ControlFlow::Continue(()),
-    };
-    let watch = Watch::new(&look);
-    let ran = catch_unwind(AssertUnwindSafe(|| system.run(&run, &watch)));
-    control.done.fetch_add(1, Ordering::Relaxed);
-    let number = asked.first + member as u64;
-    let without_start = |error| {
-        let failed = Failed { number, error, time: asked.time, state: [Vec::new(), Vec::new()] };
-        let events = vec![Found::default(); events.len()];
-        Ok(Member { record: Record::default(), has_end: false, events, failed: Some(failed) })
-    };
-    let Ok(ran) = ran else { return without_start(MemberError::Panicked.into()) };
-    match ran {
-        Ok(ran) => outcome(ran, number),
-        Err(Refusal::Start(failure)) => without_start(MemberError::Step(failure.error).into()),
-        Err(Refusal::Tolerance(error)) => without_start(MemberError::from(error).into()),
-        Err(Refusal::CalledOff) => Err(NoResult::Cancelled),
-        Err(refusal) => Err(NoResult::Refused(refusal)),
+    fn failed(&self, error: MemberError) -> NoEnd<f64, N> {
+        let Record { number, time, state, .. } = self.last;
+        Failure { number, error, last: Some(End { number, time, state }) }.into()
     }
 }
 
-/// The outcome of a run, with the events up to where it failed.
-fn outcome(ran: Ran, number: u64) -> Result<Member, NoResult> {
-    let Ran { record, stop, guarded, events } = ran;
-    let has_end = stop.is_none();
-    let last = |record: &Record| {
-        let n = record.q.len() / record.t.len().max(1);
-        [&record.q, &record.p].map(|rows| rows[rows.len() - n..].to_vec())
-    };
-    let time = record.t.last().copied().unwrap_or(f64::NAN);
-    let failed = match stop {
-        Some(Stop::Interrupted) => return Err(NoResult::Cancelled),
-        Some(Stop::TooLarge(reason)) => return Err(NoResult::TooLarge(reason)),
-        Some(Stop::Failed(Failure { error, time, state, .. })) => {
-            Some(Failed { number, error: MemberError::Step(error).into(), time, state })
+impl<S: System<N>, const N: usize> Watched<'_, S, N> {
+    /// Makes the run of a member.
+    fn go_on(&self, run: &mut Run<'_, S::View<'_>, N>, stop: Stop<'_>) {
+        let Record { system, state: start, .. } = run.start;
+        let ran = catch_unwind(AssertUnwindSafe(|| match &self.steps {
+            Unwatched::Fixed(by, Plan { h, steps, every, .. }) => {
+                let mut record = |motion: &mut dyn Motion<N>| run.follow(motion, *steps, *every, stop);
+                by.run(system, *h, &start, Some(self.events), &mut record);
+                Ok(())
+            }
+            Unwatched::ToError(by, asked) => {
+                let mut record = |motion: &mut dyn Motion<N>, steps| {
+                    run.follow(motion, steps, None, stop);
+                    match run.end {
+                        Err(NoEnd::Failed(Failure { error: MemberError::Step(error), .. })) => Some(error),
+                        _ => None,
+                    }
+                };
+                by.tried(system, *asked, &start, self.events, &mut record, stop)
+            }
+        }));
+        match ran {
+            Ok(Ok(())) => {}
+            // A run that was stopped says nothing of its error.
+            _ if run.end == Err(NoEnd::Stopped) => {}
+            Ok(Err(ToleranceError::Stopped)) => run.end = Err(NoEnd::Stopped),
+            Ok(Err(error)) => {
+                // No run that was tried is the member's.
+                (run.last, run.seen) = (run.start, Vec::new());
+                run.end = Err(run.failed(error.into()));
+            }
+            Err(_) => run.end = Err(run.failed(MemberError::Panicked)),
         }
-        Some(Stop::Events(error)) => {
-            Some(Failed { number, error: WhyFailed::Events(error), time, state: last(&record) })
-        }
-        None => guarded.and_then(|guarded| guarded.breach).map(|breach| {
-            let error = MemberError::Breach(breach).into();
-            Failed { number, error, time, state: last(&record) }
-        }),
-    };
-    Ok(Member { record, has_end, events, failed })
+    }
+}
+
+impl<'v, S: System<N>, const N: usize> Stepping<S::View<'v>, N> for Watched<'_, S, N> {
+    fn advance<V>(
+        &self,
+        members: &mut [Slot<S::View<'v>, V, N>],
+        observe: &impl Fn(&mut V, &Record<'_, S::View<'v>, N>) -> ControlFlow<()>,
+        stop: Stop<'_>,
+    ) -> ControlFlow<()> {
+        one_by_one(members, |number, system, start, value| {
+            let mut run = Run::new(number, system, *start);
+            self.go_on(&mut run, stop);
+            // A member that has arrived has no further records.
+            let _ = run.seen.iter().try_for_each(|record| observe(value, record));
+            self.done.fetch_add(1, Ordering::Relaxed);
+            run.end
+        })
+    }
+
+    fn description(&self) -> String {
+        let steps = match &self.steps {
+            Unwatched::Fixed(by, plan) => by.together(*plan).description(),
+            Unwatched::ToError(by, asked) => by.together(*asked).description(),
+        };
+        format!("{steps}, watched for {:?}", self.events.asked)
+    }
+
+    fn has_events(&self) -> bool {
+        true
+    }
+
+    /// The values of functions that the description does not tell apart.
+    fn at_start(&self, system: &S::View<'v>, start: &State<f64, N>) -> Vec<f64> {
+        let Ok(v) = start.velocity(system) else { return Vec::new() };
+        let Events { asked, origin } = self.events;
+        let value = |function: &Function<'_>| match function {
+            Function::Plane { .. } => None,
+            Function::Given(function) => Some(function(origin, start.q.as_slice(), v.as_slice())),
+        };
+        asked.iter().filter_map(|event| value(&event.function)).collect()
+    }
 }

@@ -1,5 +1,6 @@
 //! Event functions as Python gives them.
 
+use core::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use dalembert::run::events::Crossing;
@@ -52,6 +53,30 @@ impl Plane {
     }
 }
 
+/// The first exception that event functions have raised. It calls off what asks them.
+#[derive(Default)]
+pub struct Raised {
+    first: Mutex<Option<PyErr>>,
+    cancel: AtomicBool,
+}
+
+impl Raised {
+    fn put(&self, error: PyErr) {
+        self.first.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+        self.cancel.store(true, Ordering::Relaxed);
+    }
+
+    /// Takes the exception out.
+    pub fn take(&self) -> Option<PyErr> {
+        self.first.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    /// Whether all is to end: others may set it too.
+    pub fn cancel(&self) -> &AtomicBool {
+        &self.cancel
+    }
+}
+
 /// The functions that `events=` lists, for a system with `n` coordinates: planes and callables of (t, q, v). What a callable raises is put
 /// into `raised`.
 ///
@@ -61,7 +86,7 @@ pub fn functions<'a>(
     py: Python<'_>,
     given: Option<Vec<Bound<'_, PyAny>>>,
     n: usize,
-    raised: &'a Mutex<Option<PyErr>>,
+    raised: &'a Raised,
 ) -> PyResult<Vec<Event<'a>>> {
     let given = given.unwrap_or_default();
     if given.len() > MOST {
@@ -73,12 +98,7 @@ pub fn functions<'a>(
     given.into_iter().map(|function| event(py, &function, n, raised)).collect()
 }
 
-fn event<'a>(
-    py: Python<'_>,
-    given: &Bound<'_, PyAny>,
-    n: usize,
-    raised: &'a Mutex<Option<PyErr>>,
-) -> PyResult<Event<'a>> {
+fn event<'a>(py: Python<'_>, given: &Bound<'_, PyAny>, n: usize, raised: &'a Raised) -> PyResult<Event<'a>> {
     let attribute = |name: &str| given.getattr_opt(name);
     let direction: f64 = attribute("direction")?.map_or(Ok(0.0), |direction| direction.extract())?;
     let is_terminal = attribute("terminal")?.map_or(Ok(false), |terminal| terminal.is_truthy())?;
@@ -101,7 +121,7 @@ fn event<'a>(
                 callable.call1(py, (t, vector(q)?, vector(v)?))?.extract(py)
             });
             value.unwrap_or_else(|error| {
-                raised.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+                raised.put(error);
                 f64::NAN
             })
         }))
