@@ -1,12 +1,18 @@
-//! Derivatives of a step by the input and by the listed parameters.
+//! Derivatives of a step by the state, by the input and by the listed parameters.
 
 use dalembert::StepError;
 use dalembert::nalgebra::SVector;
-use dalembert::step::{DiscreteDriven, DiscreteParameters, Linearizable, StateBy, StepTaken};
+use dalembert::step::{DiscreteDriven, DiscreteParameters, Linearizable, PhaseMatrix, StateBy, StepTaken};
 use dalembert::system::Scalar;
 
 /// Derivatives of a step by one number: ∂q1 and ∂p1.
 pub type Column<S, const N: usize> = [SVector<S, N>; 2];
+
+/// The columns of A = ∂(q1, p1)/∂(q0, p0): the derivatives by each entry of q0, and by each of p0.
+pub fn by_state<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>) -> [[Column<S, N>; N]; 2] {
+    let PhaseMatrix { q_by_q, q_by_p, p_by_q, p_by_p } = *a;
+    [StateBy { q: q_by_q, p: p_by_q }, StateBy { q: q_by_p, p: p_by_p }].map(|by| each(&by))
+}
 
 /// The type of an input, by which steps of V by the rule R are differentiated.
 pub trait ByInput<V: Linearizable<R, N>, R, const N: usize> {

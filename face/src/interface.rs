@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use dalembert::nalgebra::SVector;
 use dalembert::run::DrivenTrajectory;
-use dalembert::step::{Flow, Linearizable, Memory, StepTaken};
+use dalembert::step::{Flow, Linearizable, Memory, StepTaken, require_step_size};
 use dalembert::system::{Described, Scalar};
 use dalembert::{State, StepError};
 
@@ -124,15 +124,6 @@ where
 #[must_use]
 pub const fn coordinates<S: Described<N>, const N: usize>(_: PhantomData<fn() -> S>) -> usize {
     N
-}
-
-/// Fails where `h` is 0 or not finite.
-///
-/// # Errors
-/// [`StepError::StepSize`].
-pub fn require_step_size<S: Scalar>(h: S) -> Result<(), StepError> {
-    let h = h.widen();
-    if h.is_finite() && h != 0.0 { Ok(()) } else { Err(StepError::StepSize { h }) }
 }
 
 /// A run of `system` from (q, v), with step size `h`.

@@ -15,8 +15,8 @@ mod interface;
 mod layout;
 mod number;
 
-pub use columns::{ByInput, ByParameters, Column};
+pub use columns::{ByInput, ByParameters, Column, by_state};
 pub use fields::{Field, FieldType, Fields};
-pub use interface::{By, Input, Interface, coordinates, require_step_size, start};
+pub use interface::{By, Input, Interface, coordinates, start};
 pub use layout::layout;
 pub use number::Number;

@@ -6,8 +6,8 @@
 
 use dalembert::nalgebra::ComplexField;
 use dalembert::run::DrivenTrajectory;
-use dalembert::step::{Flow, Report};
-use dalembert_face::{Interface, require_step_size, start};
+use dalembert::step::{Flow, Report, require_step_size};
+use dalembert_face::{Interface, start};
 
 use super::machine::{self, Entered, Given, Machine, Number, Rule, System, View};
 use super::{Held, advance, both, change, look, optional, place, read, seen, write};

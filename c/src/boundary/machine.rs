@@ -1,10 +1,10 @@
 //! A run as the caller's memory holds it, and what a call does with it: the same for every system.
 
 use dalembert::run::DrivenTrajectory;
-use dalembert::step::{Flow, PhaseMatrix, Quantity, StepTaken};
+use dalembert::step::{Flow, Quantity, StepTaken};
 use dalembert::system::Scalar;
 use dalembert::{State, StepError};
-use dalembert_face::{Column, Interface};
+use dalembert_face::{Column, Interface, by_state};
 
 use super::{CParameters, Plain, refused};
 use crate::Status;
@@ -109,21 +109,6 @@ pub fn state_after<L: Flow<M, N>, M, const N: usize>(
     if after == L::Scalar::constant(0.0) { Ok(*state) } else { Ok(system.step(state, after, None)?.state) }
 }
 
-/// A = ∂(q1, p1)/∂(q0, p0) in rows of (q1, p1), a column each of (q0, p0).
-fn rows_by_state<S: Scalar, const N: usize, const ROWS: usize>(a: &PhaseMatrix<S, N>) -> [[S; ROWS]; ROWS] {
-    core::array::from_fn(|row| {
-        core::array::from_fn(|column| {
-            let block = match (row < N, column < N) {
-                (true, true) => &a.q_by_q,
-                (true, false) => &a.q_by_p,
-                (false, true) => &a.p_by_q,
-                (false, false) => &a.p_by_p,
-            };
-            block[(row % N, column % N)]
-        })
-    })
-}
-
 /// The derivatives of a step by state, input and parameters, as matrices of S.
 pub type Rows<S, const M: usize, const P: usize, const ROWS: usize> =
     ([[S; ROWS]; ROWS], [[S; M]; ROWS], [[S; P]; ROWS]);
@@ -136,7 +121,7 @@ pub fn rows<I: Interface<N>, const N: usize, const M: usize, const P: usize, con
     taken: &StepTaken<'_, I::View<'_>, I::Rule, N>,
 ) -> Result<Rows<I::Scalar, M, P, ROWS>, StepError> {
     let (by_input, by_parameters) = (I::by_input(taken)?, I::by_parameters(taken)?);
-    let by_state = rows_by_state(&taken.by_state()?);
+    let by_state = rows_by(by_state(&taken.by_state()?).as_flattened());
     Ok((by_state, rows_by(by_input.as_ref()), rows_by(by_parameters.as_ref())))
 }
 

@@ -14,7 +14,7 @@ use dalembert::nalgebra::SVector;
 use dalembert::step::PhaseMatrix;
 use dalembert::system::Scalar;
 use dalembert::{Lagrangian, State, StepError};
-use dalembert_face::{Described, Interface};
+use dalembert_face::{Described, Interface, by_state};
 
 use super::CoSimulation;
 use crate::model::Model;
@@ -156,16 +156,13 @@ fn carried<I: Interface<N>, const N: usize>(
         let (input, now) = CoSimulation::<I, N>::given(&last.input, time);
         let view = I::view(&last.system, input, now);
         let taken = run.advance_linearized(&view).map_err(failed)?;
-        let a = taken.by_state().map_err(failed)?;
+        let by_state = by_state(&taken.by_state().map_err(failed)?);
         let by_input = I::by_input(&taken).map_err(failed)?;
         let by_parameters = I::by_parameters(&taken).map_err(failed)?;
-        let columns = (0..N).map(|i| [a.q_by_q.column(i).into_owned(), a.p_by_q.column(i).into_owned()]);
-        let columns =
-            columns.chain((0..N).map(|i| [a.q_by_p.column(i).into_owned(), a.p_by_p.column(i).into_owned()]));
-        let columns = columns.chain(by_input.as_ref().iter().chain(by_parameters.as_ref()).copied());
+        let columns = by_state.as_flattened().iter().chain(by_input.as_ref()).chain(by_parameters.as_ref());
         let along = dq.iter().chain(&dp).chain(&given.input).chain(&given.parameters).copied();
         let zero = SVector::from_element(I::Scalar::constant(0.0));
-        let sum = |[q, p]: [SVector<_, N>; 2], (by, along): ([SVector<_, N>; 2], I::Scalar)| {
+        let sum = |[q, p]: [SVector<_, N>; 2], (by, along): (&[SVector<_, N>; 2], I::Scalar)| {
             [q + by[0] * along, p + by[1] * along]
         };
         [dq, dp] = columns.zip(along.collect::<Vec<_>>()).fold([zero; 2], sum);

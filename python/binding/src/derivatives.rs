@@ -2,7 +2,7 @@
 
 use dalembert::nalgebra::SVector;
 use dalembert::step::PhaseMatrix;
-use dalembert_face::Column;
+use dalembert_face::{Column, by_state};
 
 /// How a state of a run follows its start and the parameters.
 #[derive(Clone, Debug)]
@@ -33,13 +33,7 @@ impl<const N: usize> Dependence<N> {
 /// A = ∂(q1, p1)/∂(q0, p0), row by row.
 #[must_use]
 pub fn matrix_rows<const N: usize>(a: &PhaseMatrix<f64, N>) -> Vec<f64> {
-    let mut rows = Vec::with_capacity(4 * N * N);
-    for (left, right) in [(&a.q_by_q, &a.q_by_p), (&a.p_by_q, &a.p_by_p)] {
-        for i in 0..N {
-            rows.extend(left.row(i).iter().chain(right.row(i).iter()));
-        }
-    }
-    rows
+    column_rows(by_state(a).as_flattened())
 }
 
 /// Columns as the rows of a matrix with 2N of them.
