@@ -130,7 +130,7 @@ macro_rules! system {
         const _: () = {
             use ::core::marker::PhantomData;
             use $crate::face::Described;
-            use $crate::offer::NoStepsToError as _;
+            use $crate::offer::NotOffered as _;
 
             const N: usize = $crate::face::coordinates(PhantomData::<fn() -> $system>);
 
@@ -169,61 +169,29 @@ macro_rules! system {
 macro_rules! offers {
     ($system:ty, $n:ident) => {
         $crate::offers! { $system, $n:
-            displacement
             "midpoint" $crate::dalembert::Midpoint,
             "trapezoidal" $crate::dalembert::Trapezoidal,
             "fitted" $crate::dalembert::Fitted,
             "fitted_trapezoidal" $crate::dalembert::FittedTrapezoidal,
-            "one_sided" $crate::dalembert::OneSided;
-            gauss
+            "one_sided" $crate::dalembert::OneSided,
             "gauss_2" $crate::dalembert::Gauss::<2>,
             "gauss_4" $crate::dalembert::Gauss::<4>,
             "gauss_6" $crate::dalembert::Gauss::<6>,
-            "gauss_8" $crate::dalembert::Gauss::<8>;
-            splittings
+            "gauss_8" $crate::dalembert::Gauss::<8>,
             "blanes_moan_4" $crate::dalembert::Splitting::blanes_moan_4(),
             "blanes_moan_6" $crate::dalembert::Splitting::blanes_moan_6(),
-            "blanes_casas_escorihuela_8" $crate::dalembert::Splitting::blanes_casas_escorihuela_8();
+            "blanes_casas_escorihuela_8" $crate::dalembert::Splitting::blanes_casas_escorihuela_8(),
         }
     };
-    (
-        $system:ty, $n:ident:
-        displacement $($rule:literal $by:expr),*;
-        gauss $($gauss:literal $stages:expr),*;
-        splittings $($splitting:literal $kicks:expr),*;
-    ) => {{
-        use $crate::offer::{NoChecks as _, NoDifferentiatedSteps as _, NoDrivenSteps as _, NoSteps as _, NoStepsInLanes as _};
-        ::std::vec![
-            $({
-                let probe = $crate::offer::Probe::<$system, _, $n>::new($by);
-                $crate::offer::Offer {
-                    name: $rule,
-                    steps: probe.steps_in_lanes().or_else(|| probe.steps()),
-                    driven: probe.driven_steps(),
-                    differentiated: None,
-                    checks: probe.checks(),
-                }
-            },)*
-            $({
-                let probe = $crate::offer::Probe::<$system, _, $n>::new($stages);
-                $crate::offer::Offer {
-                    name: $gauss,
-                    steps: probe.steps_in_lanes().or_else(|| probe.steps()),
-                    driven: probe.driven_steps(),
-                    differentiated: None,
-                    checks: None,
-                }
-            },)*
-            $({
-                let probe = $crate::offer::Probe::<$system, _, $n>::new($kicks);
-                $crate::offer::Offer {
-                    name: $splitting,
-                    steps: probe.steps_in_lanes().or_else(|| probe.steps()),
-                    driven: None,
-                    differentiated: probe.differentiated_steps(),
-                    checks: None,
-                }
-            },)*
-        ]
-    }};
+    ($system:ty, $n:ident: $($name:literal $method:expr,)*) => {
+        ::std::vec![$({
+            let probe = $crate::offer::Probe::<$system, _, $n>::new($method);
+            $crate::offer::Offer {
+                name: $name,
+                steps: probe.steps_in_lanes().or_else(|| probe.steps()),
+                driven: probe.driven_steps(),
+                checks: probe.checks(),
+            }
+        },)*]
+    };
 }

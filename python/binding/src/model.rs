@@ -320,8 +320,7 @@ impl<S: Offers<N>, const N: usize> Model for ModelOf<S, N> {
         let system = self.view(start);
         let linearized = match S::offered(rule)? {
             Offer { driven: Some(driven), .. } => driven.linearized(&system, h, &state),
-            Offer { differentiated: Some(steps), .. } => steps.linearized(&system, h, &state),
-            _ => return Err(Refusal::NotDriven),
+            Offer { steps, .. } => steps.ok_or(Refusal::Rule)?.linearized(&system, h, &state),
         };
         let taken = linearized.map_err(|error| refused(start, error))?;
         let State { q, p } = taken.step.state;

@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use dalembert::run::{Discretise, DrivenTrajectory, InLanes as LanesBy, Stop};
-use dalembert::step::{Discrete, Flow, ForceWork, Linearizable, Memory, Step};
+use dalembert::step::{ClosedForm, Discrete, Flow, ForceWork, Linearizable, Memory, Step};
 use dalembert::tolerance::{OffersMethods, ToleranceError};
 use dalembert::{State, StepError};
 use dalembert_ensemble::{InLanes, OneByOne, Plan, ToError};
@@ -24,10 +24,8 @@ pub struct Offer<S: System<N>, const N: usize> {
     pub name: &'static str,
     /// Its steps.
     pub steps: Option<Box<dyn Steps<S, N>>>,
-    /// Steps with inputs of their own, and derivatives: of rules.
+    /// Steps with inputs of their own, and all derivatives: of rules.
     pub driven: Option<Box<dyn DrivenSteps<S, N>>>,
-    /// Steps with A: of other methods.
-    pub differentiated: Option<Box<dyn DifferentiatedSteps<S, N>>>,
     /// Checks of its discrete objects: of rules by displacement.
     pub checks: Option<Box<dyn Checks<S, N>>>,
 }
@@ -83,10 +81,7 @@ pub trait Steps<S: System<N>, const N: usize>: Send + Sync {
 
     /// The runs of many.
     fn together<'a>(&self, plan: Plan<f64>) -> Box<dyn Together<S::View<'a>, N> + 'a>;
-}
 
-/// Steps by one method, with A.
-pub trait DifferentiatedSteps<S: System<N>, const N: usize>: Send + Sync {
     /// A step with A.
     ///
     /// # Errors
@@ -184,9 +179,9 @@ pub trait StepsToError<S: System<N>, const N: usize>: Send + Sync {
     fn together<'a>(&self, asked: ErrorAsked) -> Box<dyn Together<S::View<'a>, N> + 'a>;
 }
 
-/// Asks what a system and a method offer: a function of the trait named beside it answers `None` where the one of
-/// `Probe` itself has bounds that do not hold. It decides for types that are known, as in what
-/// [`module!`](crate::module) writes, and there without a word about the methods of a system.
+/// Asks what a system and a method offer: a function of [`NotOffered`] answers `None` where that of `Probe` itself
+/// has bounds that do not hold. It decides for types that are known, as in what [`module!`](crate::module)
+/// writes, and there without a word about the methods of a system.
 pub struct Probe<S, M, const N: usize> {
     method: M,
     system: PhantomData<fn() -> S>,
@@ -199,60 +194,35 @@ impl<S, M, const N: usize> Probe<S, M, N> {
     }
 }
 
-/// Of a method by which the system is not stepped.
-pub trait NoSteps<S: System<N>, const N: usize> {
-    /// Returns `None`.
+/// The answers of a [`Probe`] where there is no offer.
+pub trait NotOffered<S: System<N>, const N: usize> {
+    /// `None`: the system is not stepped by the method.
     fn steps(&self) -> Option<Box<dyn Steps<S, N>>> {
         None
     }
-}
 
-/// Of a method by which members are not stepped in lanes.
-pub trait NoStepsInLanes<S: System<N>, const N: usize> {
-    /// Returns `None`.
+    /// `None`: members are not stepped in lanes.
     fn steps_in_lanes(&self) -> Option<Box<dyn Steps<S, N>>> {
         None
     }
-}
 
-/// Of a method whose steps are not asked for derivatives where they were taken.
-pub trait NoDrivenSteps<S: System<N>, const N: usize> {
-    /// Returns `None`.
+    /// `None`: steps are not asked for derivatives where they were taken.
     fn driven_steps(&self) -> Option<Box<dyn DrivenSteps<S, N>>> {
         None
     }
-}
 
-/// Of a method by which the system is not stepped.
-pub trait NoDifferentiatedSteps<S: System<N>, const N: usize> {
-    /// Returns `None`.
-    fn differentiated_steps(&self) -> Option<Box<dyn DifferentiatedSteps<S, N>>> {
+    /// `None`: the method has no discrete objects by formulas.
+    fn checks(&self) -> Option<Box<dyn Checks<S, N>>> {
         None
     }
-}
 
-/// Of a system of which no error can be asked.
-pub trait NoStepsToError<S: System<N>, const N: usize> {
-    /// Returns `None`.
+    /// `None`: no error can be asked of the system.
     fn steps_to_error(&self) -> Option<Box<dyn StepsToError<S, N>>> {
         None
     }
 }
 
-/// Of a method that has no discrete objects by formulas.
-pub trait NoChecks<S: System<N>, const N: usize> {
-    /// Returns `None`.
-    fn checks(&self) -> Option<Box<dyn Checks<S, N>>> {
-        None
-    }
-}
-
-impl<S: System<N>, M, const N: usize> NoSteps<S, N> for Probe<S, M, N> {}
-impl<S: System<N>, M, const N: usize> NoStepsInLanes<S, N> for Probe<S, M, N> {}
-impl<S: System<N>, M, const N: usize> NoDrivenSteps<S, N> for Probe<S, M, N> {}
-impl<S: System<N>, M, const N: usize> NoDifferentiatedSteps<S, N> for Probe<S, M, N> {}
-impl<S: System<N>, M, const N: usize> NoStepsToError<S, N> for Probe<S, M, N> {}
-impl<S: System<N>, M, const N: usize> NoChecks<S, N> for Probe<S, M, N> {}
+impl<S: System<N>, M, const N: usize> NotOffered<S, N> for Probe<S, M, N> {}
 
 /// A method.
 struct By<M>(M);
@@ -293,6 +263,15 @@ where
     fn together<'a>(&self, plan: Plan<f64>) -> Box<dyn Together<S::View<'a>, N> + 'a> {
         Box::new(InLanes::new(self.0, plan))
     }
+
+    fn linearized(
+        &self,
+        system: &S::View<'_>,
+        h: f64,
+        start: &State<f64, N>,
+    ) -> Result<StepDerivatives<N>, StepError> {
+        Steps::<S, N>::linearized(&By(self.0), system, h, start)
+    }
 }
 
 impl<S, M, const N: usize> Probe<S, M, N>
@@ -304,12 +283,6 @@ where
     /// Steps by the method.
     #[must_use]
     pub fn steps(&self) -> Option<Box<dyn Steps<S, N>>> {
-        Some(Box::new(By(self.method)))
-    }
-
-    /// Steps by the method, with A.
-    #[must_use]
-    pub fn differentiated_steps(&self) -> Option<Box<dyn DifferentiatedSteps<S, N>>> {
         Some(Box::new(By(self.method)))
     }
 }
@@ -338,14 +311,7 @@ where
     fn together<'a>(&self, plan: Plan<f64>) -> Box<dyn Together<S::View<'a>, N> + 'a> {
         Box::new(OneByOne::new(self.0, plan))
     }
-}
 
-impl<S, M, const N: usize> DifferentiatedSteps<S, N> for By<M>
-where
-    S: System<N>,
-    for<'a> S::View<'a>: Flow<M, N>,
-    M: Copy + Send + Sync + 'static,
-{
     fn linearized(
         &self,
         system: &S::View<'_>,
@@ -418,7 +384,7 @@ where
 impl<S, M, const N: usize> Probe<S, M, N>
 where
     S: System<N>,
-    for<'a> S::View<'a>: Discrete<M, N> + ForceWork<M, N>,
+    for<'a> S::View<'a>: ClosedForm<M, N> + Discrete<M, N> + ForceWork<M, N>,
     M: Copy + Send + Sync + 'static,
 {
     /// The checks of its discrete objects.
