@@ -39,6 +39,11 @@ pub trait Stepping<L: Lagrangian<N>, const N: usize>: Sync {
         stop: Stop<'_>,
     ) -> ControlFlow<()>;
 
+    /// Members that a thread takes at a time at least: one, where a member takes long.
+    fn at_once(&self) -> u64 {
+        64
+    }
+
     /// How the members are stepped, in words: that two studies are the same.
     fn description(&self) -> String;
 

@@ -19,8 +19,8 @@ use crate::stepping::{OneByOne, Plan, Slot, Stepping, ToError};
 /// Chunks for each thread between two additions to the total.
 const CHUNKS: u64 = 16;
 
-/// Members that a thread takes at a time: the least, and the most, which bounds the memory.
-const CHUNK: [u64; 2] = [64, 1024];
+/// Members that a thread takes at a time, at most: it bounds the memory.
+const CHUNK: u64 = 1024;
 
 /// Chunks that take less than this on the way from one addition to the next are followed by larger ones.
 const BRIEF: Duration = Duration::from_millis(200);
@@ -381,7 +381,7 @@ where
         };
         let is_flagged = || self.is_flagged();
         let stop = Stop::when(&is_flagged);
-        let [mut size, largest] = CHUNK;
+        let mut size = self.stepping.at_once().clamp(1, CHUNK);
         let mut first = numbers.start;
         while first < numbers.end {
             if self.is_cancelled(progress) {
@@ -432,7 +432,7 @@ where
             }
             first = end;
             if begin.elapsed() < BRIEF {
-                size = largest.min(2 * size);
+                size = CHUNK.min(2 * size);
             }
         }
         // All is done: there is nothing left to cancel.

@@ -18,6 +18,9 @@ pub trait Together<L: Lagrangian<N>, const N: usize>: Sync {
         stop: Stop<'_>,
     ) -> ControlFlow<()>;
 
+    /// As [`Stepping::at_once`].
+    fn at_once(&self) -> u64;
+
     /// As [`Stepping::description`].
     fn description(&self) -> String;
 
@@ -37,6 +40,10 @@ impl<L: Lagrangian<N>, T: Stepping<L, N>, const N: usize> Together<L, N> for T {
     ) -> ControlFlow<()> {
         let observe = |place: &mut usize, record: &Record<'_, L, N>| observe(*place, record);
         Stepping::advance(self, members, &observe, stop)
+    }
+
+    fn at_once(&self) -> u64 {
+        Stepping::at_once(self)
     }
 
     fn description(&self) -> String {
@@ -79,6 +86,10 @@ impl<L: Lagrangian<N>, const N: usize> Stepping<L, N> for BySome<'_, L, N> {
             *failure = placed.failure;
         }
         ControlFlow::Continue(())
+    }
+
+    fn at_once(&self) -> u64 {
+        self.0.at_once()
     }
 
     fn description(&self) -> String {

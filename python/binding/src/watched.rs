@@ -21,7 +21,7 @@ pub struct Watched<'a, S: System<N>, const N: usize> {
     pub steps: Unwatched<S, N>,
     /// The events.
     pub events: Events<'a>,
-    /// Members that are done.
+    /// A count of the members that are done, one by one: a study adds many at a time.
     pub done: &'a AtomicU64,
 }
 
@@ -149,6 +149,10 @@ impl<'v, S: System<N>, const N: usize> Stepping<S::View<'v>, N> for Watched<'_, 
             self.done.fetch_add(1, Ordering::Relaxed);
             run.end
         })
+    }
+
+    fn at_once(&self) -> u64 {
+        1
     }
 
     fn description(&self) -> String {
