@@ -1,11 +1,11 @@
-//! The inputs that the fuzzer in `fuzz/` has kept, on any compiler.
+//! The inputs that the fuzzer in `tests/fuzz/` has kept, on any compiler.
 
 use std::fs;
 use std::path::Path;
 
 use crate as pipeline;
 
-#[path = "../../../fuzz/fuzz_targets/macro_tokens/answer.rs"]
+#[path = "../../../tests/fuzz/fuzz_targets/macro_tokens/answer.rs"]
 mod answer;
 
 #[test]
