@@ -25,6 +25,7 @@ pub mod lower;
 mod model;
 mod parameters;
 pub mod parse;
+mod parts;
 mod portable;
 mod renamed;
 mod rules;

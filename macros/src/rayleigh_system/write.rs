@@ -72,10 +72,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
         &functions.places,
         &functions.plain,
     );
-    let rayleigh = system
-        .rayleigh
-        .zip(functions.rayleigh)
-        .map(|(arguments, derivatives)| continuous::rayleigh(system, arguments, derivatives));
+    let rayleigh = functions.rayleigh.map(|derivatives| continuous::rayleigh(system, derivatives));
     let force = functions.force.map(|derivatives| continuous::force(system, derivatives));
     let time_scale = functions.time_scale.map(|function| continuous::time_scale(system, function));
     let acting = continuous::acting_force(system, functions.cancelling_terms);

@@ -155,7 +155,7 @@ fn of_terms(system: &System<'_>, rule: Rule) -> Kernel {
     let joint = rule.joint();
     // Midpoint::lagrangian_kernel(self, segment) + Midpoint::rayleigh_kernel(self, segment)
     let terms = |function: &str| {
-        let terms = system.parts().map(|part| format_ident!("{}_{function}", part.name()));
+        let terms = system.terms().map(|part| format_ident!("{}_{function}", part.name()));
         quote!(#(#name::#terms(self, segment))+*)
     };
     let [step_kernel, momenta] = match joint {

@@ -148,7 +148,7 @@ impl Code<'_> {
     /// is known, and the function that moves it.
     fn gathered(&mut self, fields: &OfMembers) -> TokenStream {
         let (ty, members) = (fields.ty(), &fields.members);
-        let (scalar, is_timed) = (self.system.scalar.clone(), self.system.timed.any());
+        let (scalar, is_timed) = (self.system.scalar.clone(), self.system.is_timed());
         let mut of_each = |(nodes, group): (&[Node], &str)| {
             let line = self.writing(&self.taken_with(&["systems", "system"])).numbers(nodes);
             self.calls_elementary |= line.calls_elementary;

@@ -133,7 +133,7 @@ impl Code<'_> {
         let (scalar, n) = (&self.system.scalar, self.system.degrees.times(1));
         let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
         let (statements, later, stages) = (&line.statements, &line.later, number_of_stages(&self.graph));
-        let (function, text, elapsed) = if self.system.timed.any() {
+        let (function, text, elapsed) = if self.system.is_timed() {
             let elapsed = parameter("elapsed", line.uses("t"));
             let text = " G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages, each at its own time.";
             (format_ident!("stages_in_time"), text, Some(quote!(#elapsed: &Lanes<#scalar, #stages>,)))

@@ -24,7 +24,7 @@ impl Code<'_> {
         let force = self.on_members(force, &TAKEN, &[], None);
         let momenta = self.on_members(&momenta, &TAKEN, &[], None);
         let fields = OfMembers::fields_of(self, [&force, &momenta]);
-        let is_timed = self.system.timed.any();
+        let is_timed = self.system.is_timed();
         let gathered = self.gathered(&fields);
         let (scalar, n, members) = (&self.system.scalar, self.system.degrees.times(1), &fields.members);
 

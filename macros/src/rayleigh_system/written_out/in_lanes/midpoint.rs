@@ -28,7 +28,7 @@ impl Code<'_> {
         let kernel = self.on_members(kernel, &TAKEN_AT_MIDPOINT, &[], None);
         let momenta = self.on_members(momenta, &TAKEN_AT_MIDPOINT, &[], None);
         let fields = OfMembers::fields_of(self, [&kernel, &momenta]);
-        let is_timed = self.system.timed.any();
+        let is_timed = self.system.is_timed();
         let timed = is_timed.then(|| {
             quote!(
                 const IS_TIMED: bool = true;

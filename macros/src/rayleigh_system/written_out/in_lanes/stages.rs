@@ -37,7 +37,7 @@ impl Code<'_> {
             let place = handed.iter().position(|&other| other == node);
             place.map_or_else(TokenStream::new, |place| of_kept[place].clone())
         });
-        let is_timed = self.system.timed.any();
+        let is_timed = self.system.is_timed();
         let apart = fields.read_by(&line, is_timed, "t");
         let of_fields = parameter("fields", apart.is_some());
         let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
