@@ -120,5 +120,5 @@ mod study;
 pub use lanes::InLanes;
 pub use member::{End, Failure, MemberError, Record};
 pub use progress::{Cancelled, Progress};
-pub use stepping::{NoEnd, OneByOne, Plan, Slot, Stepping, ToError, one_by_one};
+pub use stepping::{OneByOne, Plan, Slot, Stepping, ToError, one_by_one};
 pub use study::{Ends, Ensemble, Outcome, Study};

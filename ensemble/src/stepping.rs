@@ -61,8 +61,7 @@ pub trait Stepping<L: Lagrangian<N>, const N: usize>: Sync {
 }
 
 /// Why the run of a member has no end.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum NoEnd<S, const N: usize> {
+pub(crate) enum NoEnd<S, const N: usize> {
     /// It fails.
     Failed(Failure<S, N>),
     /// The caller ends all.
@@ -87,17 +86,16 @@ pub(crate) fn failed<S, const N: usize>(
 }
 
 /// Steps one member after the other: `run` makes the run of each that has a start, given its number, system,
-/// start and value. Breaks where it is stopped.
+/// start and value, and says why it failed, if it did. Breaks where that does.
 pub fn one_by_one<L: Lagrangian<N>, V, const N: usize>(
     members: &mut [Slot<L, V, N>],
-    run: impl Fn(u64, &L, &State<L::Scalar, N>, &mut V) -> Result<(), NoEnd<L::Scalar, N>>,
+    run: impl Fn(u64, &L, &State<L::Scalar, N>, &mut V) -> ControlFlow<(), Option<Failure<L::Scalar, N>>>,
 ) -> ControlFlow<()> {
     for Slot { number, start, value, failure } in members {
-        let done = match start {
-            Ok((system, start)) => run(*number, system, start, value),
-            Err(error) => Err(Failure { number: *number, error: (*error).into(), last: None }.into()),
+        *failure = match start {
+            Ok((system, start)) => run(*number, system, start, value)?,
+            Err(error) => Some(Failure { number: *number, error: (*error).into(), last: None }),
         };
-        *failure = failed(done)?;
     }
     ControlFlow::Continue(())
 }
@@ -142,7 +140,7 @@ where
         stop: Stop<'_>,
     ) -> ControlFlow<()> {
         one_by_one(members, |number, system, start, value| {
-            self.plan.run(self.method, (number, system, start), |record| observe(value, record), stop)
+            failed(self.plan.run(self.method, (number, system, start), |record| observe(value, record), stop))
         })
     }
 
@@ -261,18 +259,19 @@ where
         one_by_one(members, |number, system, start, value| {
             let request = system.to_error(self.tolerance).until(self.time).stopped_by(stop);
             let reached = caught(|| request.end(start)).and_then(|end| end.map_err(MemberError::from));
-            let reached = reached.map_err(|error| match error {
-                MemberError::Tolerance(ToleranceError::Stopped) => NoEnd::Stopped,
-                error => {
+            let reached = match reached {
+                Ok(reached) => reached,
+                Err(MemberError::Tolerance(ToleranceError::Stopped)) => return ControlFlow::Break(()),
+                Err(error) => {
                     let last = Some(End { number, time: 0.0, state: *start });
-                    Failure { number, error, last }.into()
+                    return ControlFlow::Continue(Some(Failure { number, error, last }));
                 }
-            })?;
+            };
             let (steps, state) = (reached.choice.steps(), reached.state);
             let time = reached.choice.step_size() * steps as f64;
             // The end is the only record: nothing is left to be stopped.
             let _ = observe(value, &Record { number, system, steps, time, state, event: None });
-            Ok(())
+            ControlFlow::Continue(None)
         })
     }
 

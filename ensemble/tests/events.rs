@@ -7,7 +7,7 @@ use std::path::Path;
 use dalembert::run::Stop;
 use dalembert::run::events::Watched as Next;
 use dalembert::{Discretise, Gauss, State, rayleigh_system};
-use dalembert_ensemble::{End, Ensemble, Failure, MemberError, NoEnd, Record, Slot, Stepping, one_by_one};
+use dalembert_ensemble::{End, Ensemble, Failure, MemberError, Record, Slot, Stepping, one_by_one};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::RowAccessor;
 
@@ -34,7 +34,7 @@ impl Stepping<Pendulum, 1> for Watched {
             let mut last = Record { number, system, steps: 0, time: 0.0, state: *start, event: None };
             while last.steps < self.steps {
                 if stop.is_asked() {
-                    return Err(NoEnd::Stopped);
+                    return ControlFlow::Break(());
                 }
                 let record = match watch.advance() {
                     Some(Ok(Next::Event(event))) => {
@@ -51,7 +51,7 @@ impl Stepping<Pendulum, 1> for Watched {
                     }
                     Some(Err(error)) => {
                         let last = Some(End { number, time: last.time, state: last.state });
-                        return Err(Failure { number, error: error.into(), last }.into());
+                        return ControlFlow::Continue(Some(Failure { number, error: error.into(), last }));
                     }
                     None => break,
                 };
@@ -59,7 +59,7 @@ impl Stepping<Pendulum, 1> for Watched {
                     break;
                 }
             }
-            Ok(())
+            ControlFlow::Continue(None)
         })
     }
 

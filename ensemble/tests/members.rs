@@ -266,7 +266,7 @@ impl Stepping<Ring, 2> for Meeting<'_> {
                 thread::yield_now();
             }
             self.there.fetch_sub(1, Ordering::SeqCst);
-            Ok(())
+            ControlFlow::Continue(None)
         })
     }
 

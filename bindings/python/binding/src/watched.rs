@@ -8,7 +8,7 @@ use dalembert::run::Stop;
 use dalembert::run::events::Watched as Next;
 use dalembert::tolerance::ToleranceError;
 use dalembert::{Lagrangian, State};
-use dalembert_ensemble::{End, Failure, MemberError, NoEnd, Plan, Record, Slot, Stepping, one_by_one};
+use dalembert_ensemble::{End, Failure, MemberError, Plan, Record, Slot, Stepping, one_by_one};
 
 use crate::events::{Events, Function};
 use crate::motion::Motion;
@@ -38,13 +38,16 @@ struct Run<'m, L: Lagrangian<N, Scalar = f64>, const N: usize> {
     start: Record<'m, L, N>,
     last: Record<'m, L, N>,
     seen: Vec<Record<'m, L, N>>,
-    end: Result<(), NoEnd<f64, N>>,
+    end: Outcome<N>,
 }
+
+/// Why a run failed, if it did; breaks where it was stopped.
+type Outcome<const N: usize> = ControlFlow<(), Option<Failure<f64, N>>>;
 
 impl<'m, L: Lagrangian<N, Scalar = f64>, const N: usize> Run<'m, L, N> {
     fn new(number: u64, system: &'m L, state: State<f64, N>) -> Self {
         let start = Record { number, system, steps: 0, time: 0.0, state, event: None };
-        Self { start, last: start, seen: Vec::new(), end: Ok(()) }
+        Self { start, last: start, seen: Vec::new(), end: ControlFlow::Continue(None) }
     }
 
     /// Follows `motion` from the start.
@@ -59,7 +62,7 @@ impl<'m, L: Lagrangian<N, Scalar = f64>, const N: usize> Run<'m, L, N> {
         steps: u64,
         every: Option<u64>,
         stop: Stop<'_>,
-    ) -> Result<(), NoEnd<f64, N>> {
+    ) -> Outcome<N> {
         if every.is_some() || steps == 0 {
             self.seen.push(self.start);
         }
@@ -74,14 +77,14 @@ impl<'m, L: Lagrangian<N, Scalar = f64>, const N: usize> Run<'m, L, N> {
                         self.seen.push(self.last);
                     }
                     if taken.is_multiple_of(Stop::STRIDE) && stop.is_asked() {
-                        return Err(NoEnd::Stopped);
+                        return ControlFlow::Break(());
                     }
                 }
                 Some(Ok(Next::Event(event))) => {
                     let (time, state, event) = (event.time, event.state, Some(event.index));
                     self.seen.push(Record { time, state, event, ..self.last });
                 }
-                Some(Err(error)) => return Err(self.failed(error.into())),
+                Some(Err(error)) => return self.failed(error.into()),
                 // An event has ended the run.
                 None => {
                     self.seen.push(Record { time: motion.time(), state: *motion.state(), ..self.last });
@@ -89,12 +92,12 @@ impl<'m, L: Lagrangian<N, Scalar = f64>, const N: usize> Run<'m, L, N> {
                 }
             }
         }
-        Ok(())
+        ControlFlow::Continue(None)
     }
 
-    fn failed(&self, error: MemberError) -> NoEnd<f64, N> {
+    fn failed(&self, error: MemberError) -> Outcome<N> {
         let Record { number, time, state, .. } = self.last;
-        Failure { number, error, last: Some(End { number, time, state }) }.into()
+        ControlFlow::Continue(Some(Failure { number, error, last: Some(End { number, time, state }) }))
     }
 }
 
@@ -112,7 +115,9 @@ impl<S: System<N>, const N: usize> Watched<'_, S, N> {
                 let mut record = |motion: &mut dyn Motion<N>, steps| {
                     run.follow(motion, steps, None, stop);
                     match run.end {
-                        Err(NoEnd::Failed(Failure { error: MemberError::Step(error), .. })) => Some(error),
+                        ControlFlow::Continue(Some(Failure { error: MemberError::Step(error), .. })) => {
+                            Some(error)
+                        }
                         _ => None,
                     }
                 };
@@ -122,14 +127,14 @@ impl<S: System<N>, const N: usize> Watched<'_, S, N> {
         match ran {
             Ok(Ok(())) => {}
             // A run that was stopped says nothing of its error.
-            _ if run.end == Err(NoEnd::Stopped) => {}
-            Ok(Err(ToleranceError::Stopped)) => run.end = Err(NoEnd::Stopped),
+            _ if run.end.is_break() => {}
+            Ok(Err(ToleranceError::Stopped)) => run.end = ControlFlow::Break(()),
             Ok(Err(error)) => {
                 // No run that was tried is the member's.
                 (run.last, run.seen) = (run.start, Vec::new());
-                run.end = Err(run.failed(error.into()));
+                run.end = run.failed(error.into());
             }
-            Err(_) => run.end = Err(run.failed(MemberError::Panicked)),
+            Err(_) => run.end = run.failed(MemberError::Panicked),
         }
     }
 }
