@@ -27,7 +27,7 @@ pub use composition::Composition;
 pub use discretise::Discretise;
 pub use driven::DrivenTrajectory;
 pub use held_input::{Carried, HeldInput, InPeriod, Period, Sensitivities};
-pub use lanes::{ExplicitInLanes, InLanes, LaneRuns};
+pub use lanes::{ExplicitInLanes, FlowInLanes, LaneRuns};
 pub use memory::{DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, VelocityHistory};
 pub use splitting::Splitting;
 pub(crate) use trajectory::TakenUntil;

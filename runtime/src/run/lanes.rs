@@ -58,7 +58,7 @@ pub trait ExplicitInLanes<const N: usize>: Explicit<N, Scalar: Elementary> {
 }
 
 /// A system that method `M` steps in lanes.
-pub trait InLanes<M, const N: usize>: Flow<M, N> {
+pub trait FlowInLanes<M, const N: usize>: Flow<M, N> {
     /// W members on their way: their states, and all that a step asks for.
     type Lanes<const W: usize>: Copy + core::fmt::Debug;
 
@@ -124,7 +124,7 @@ pub trait InLanes<M, const N: usize>: Flow<M, N> {
 /// ```
 pub struct LaneRuns<'a, L, M, const N: usize, const W: usize>
 where
-    L: InLanes<M, N>,
+    L: FlowInLanes<M, N>,
 {
     systems: [&'a L; W],
     h: L::Scalar,
@@ -136,7 +136,7 @@ where
 
 impl<'a, L, M, const N: usize, const W: usize> LaneRuns<'a, L, M, N, W>
 where
-    L: InLanes<M, N>,
+    L: FlowInLanes<M, N>,
 {
     /// One run for each system, from the state of the same index.
     ///
@@ -268,13 +268,13 @@ where
     }
 }
 
-impl<L: InLanes<M, N>, M, const N: usize, const W: usize> Clone for LaneRuns<'_, L, M, N, W> {
+impl<L: FlowInLanes<M, N>, M, const N: usize, const W: usize> Clone for LaneRuns<'_, L, M, N, W> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<L: InLanes<M, N>, M, const N: usize, const W: usize> Copy for LaneRuns<'_, L, M, N, W> {}
+impl<L: FlowInLanes<M, N>, M, const N: usize, const W: usize> Copy for LaneRuns<'_, L, M, N, W> {}
 
 /// Whether the run in a lane begins from `start`, and its clock needs no watching. Of the first lane slopes
 /// are looked at too: they cost as much as some steps of all.

@@ -10,7 +10,7 @@ use super::{begins, state_if_sound};
 use crate::numbers::members::{difference, each_coordinate, member, write_member};
 use crate::numbers::{Mask, MatricesOfMembers, MemberVector, Members, NewtonMatrix, Scalar};
 use crate::rules::Trapezoidal;
-use crate::run::{Composition, ExplicitInLanes, InLanes};
+use crate::run::{Composition, ExplicitInLanes, FlowInLanes};
 use crate::step::in_lanes::clocks::Clocks;
 use crate::step::newton::AT_FLOOR;
 use crate::step::{Flow, State};
@@ -269,7 +269,7 @@ impl<T: Scalar, A, const N: usize, const W: usize> Substep<T, A, N, W> {
     }
 }
 
-impl<L, const N: usize> InLanes<Trapezoidal, N> for L
+impl<L, const N: usize> FlowInLanes<Trapezoidal, N> for L
 where
     L: ExplicitInLanes<N>,
 {
@@ -303,7 +303,7 @@ where
     }
 }
 
-impl<L, const N: usize, const S: usize> InLanes<Composition<Trapezoidal, S>, N> for L
+impl<L, const N: usize, const S: usize> FlowInLanes<Composition<Trapezoidal, S>, N> for L
 where
     L: ExplicitInLanes<N>,
 {

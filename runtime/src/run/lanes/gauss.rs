@@ -2,11 +2,11 @@
 
 use super::{begins, state_if_sound};
 use crate::rules::{Gauss, StagesInLanes};
-use crate::run::{InLanes, LaneRuns};
+use crate::run::{FlowInLanes, LaneRuns};
 use crate::step::State;
 use crate::system::ForcedLagrangianInLanes;
 
-impl<L, const N: usize, const S: usize> InLanes<Gauss<S>, N> for L
+impl<L, const N: usize, const S: usize> FlowInLanes<Gauss<S>, N> for L
 where
     L: ForcedLagrangianInLanes<N>,
 {

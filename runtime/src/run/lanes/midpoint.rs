@@ -12,7 +12,7 @@ use crate::numbers::members::{coordinate_by_coordinate, each_coordinate, member,
 use crate::numbers::{Mask, MatricesOfMembers, MemberVector, Members, Scalar};
 use crate::rules::Midpoint;
 use crate::run::memory::in_lanes::{by_kept_matrices, by_linear_matrices};
-use crate::run::{InLanes, LaneRuns};
+use crate::run::{FlowInLanes, LaneRuns};
 use crate::step::in_lanes::clocks::Clocks;
 use crate::step::in_lanes::newton::{MatricesOf, Roots, quick_in_lanes};
 use crate::step::{DiscreteInLanes, Fused, Memory, MemoryInLanes, State, VelocityHistory};
@@ -265,7 +265,7 @@ where
         look_ahead::<L, N, W>(steps, lane);
     }
 }
-impl<L, const N: usize> InLanes<Midpoint, N> for L
+impl<L, const N: usize> FlowInLanes<Midpoint, N> for L
 where
     L: DiscreteInLanes<Midpoint, N>,
 {

@@ -10,7 +10,7 @@ use crate::numbers::members::{difference, each_coordinate, write_member};
 use crate::numbers::{Compensated, CompensatedMembers, Mask, MemberVector, Members, Scalar};
 use crate::rules::Drift;
 use crate::run::lanes::{begins, state_if_sound};
-use crate::run::{ExplicitInLanes, InLanes};
+use crate::run::{ExplicitInLanes, FlowInLanes};
 use crate::step::State;
 use crate::step::in_lanes::clocks::Clocks;
 use crate::system::{Damping, NewtonStructure, Structure};
@@ -317,7 +317,8 @@ const fn may_be_full<const N: usize>(structure: &Structure) -> bool {
     N > 1 && !matches!(of_both, Some(NewtonStructure { bandwidth: 0, .. }))
 }
 
-impl<L, const N: usize, const S: usize, const COMPENSATED: bool> InLanes<Splitting<S, COMPENSATED>, N> for L
+impl<L, const N: usize, const S: usize, const COMPENSATED: bool> FlowInLanes<Splitting<S, COMPENSATED>, N>
+    for L
 where
     L: ExplicitInLanes<N>,
 {
