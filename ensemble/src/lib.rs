@@ -117,7 +117,7 @@ mod progress;
 mod stepping;
 mod study;
 
-pub use lanes::InLanes;
+pub use lanes::SideBySide;
 pub use member::{End, Failure, MemberError, Record};
 pub use progress::{Cancelled, Progress};
 pub use stepping::{OneByOne, Plan, Slot, Stepping, ToError, one_by_one};

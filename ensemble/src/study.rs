@@ -5,13 +5,13 @@ use core::ops::{ControlFlow, Range};
 use core::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use dalembert::run::{InLanes as LanesBy, Stop};
-use dalembert::step::{Flow, MethodOf};
+use dalembert::run::Stop;
+use dalembert::step::{Flow, FlowInLanes, MethodOf};
 use dalembert::tolerance::OffersMethods;
 use dalembert::{Gauss, Lagrangian, State, StepError};
 use rayon::prelude::*;
 
-use crate::lanes::InLanes;
+use crate::lanes::SideBySide;
 use crate::member::{End, Failure, MemberError, Record, caught};
 use crate::progress::{Cancelled, Progress};
 use crate::stepping::{OneByOne, Plan, Slot, Stepping, ToError};
@@ -178,7 +178,7 @@ impl<F, L: Lagrangian<N>, const S: usize, const N: usize> Study<'_, F, OneByOne<
 
 impl<'f, F, M, L, const N: usize> Study<'f, F, OneByOne<M, L::Scalar>, L, N>
 where
-    L: LanesBy<M, N>,
+    L: FlowInLanes<M, N>,
 {
     /// As many members at a time as the machine has lanes for: 32, 16 or 8, fewer of many coordinates; every
     /// field has its own value.
@@ -205,10 +205,10 @@ where
     /// assert_eq!(study().in_lanes().ends(0..100)?, study().ends(0..100)?);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn in_lanes(self) -> Study<'f, F, InLanes<M, L::Scalar>, L, N> {
+    pub fn in_lanes(self) -> Study<'f, F, SideBySide<M, L::Scalar>, L, N> {
         let OneByOne { method, plan } = self.stepping;
         let Self { members, progress, cancel, arrival, of, .. } = self;
-        Study { members, stepping: InLanes { method, plan }, progress, cancel, arrival, of }
+        Study { members, stepping: SideBySide { method, plan }, progress, cancel, arrival, of }
     }
 }
 

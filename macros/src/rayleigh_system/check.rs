@@ -189,6 +189,6 @@ fn of_shape<'a>(
         parameters: options.parameters.clone(),
         second: options.second,
         lanes: options.lanes.clone(),
-        is_fused: options.fused.is_some(),
+        fused: options.fused.clone(),
     }
 }

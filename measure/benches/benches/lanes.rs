@@ -9,7 +9,8 @@
 use std::hint::black_box;
 
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::run::{InLanes, LaneRuns};
+use dalembert::run::LaneRuns;
+use dalembert::step::FlowInLanes;
 use dalembert::{Composition, Discretise, Gauss, Midpoint, Splitting, State, Trapezoidal, rayleigh_system};
 use dalembert_benches::interleaved::medians_over;
 use multiversion::multiversion;
@@ -105,7 +106,7 @@ impl Chain {
 ))]
 fn advance_versioned<L, M, const N: usize, const W: usize>(runs: &mut LaneRuns<'_, L, M, N, W>, steps: u64)
 where
-    L: InLanes<M, N>,
+    L: FlowInLanes<M, N>,
 {
     runs.advance(steps);
 }
@@ -113,7 +114,7 @@ where
 #[inline(never)]
 fn advance_as_compiled<L, M, const N: usize, const W: usize>(runs: &mut LaneRuns<'_, L, M, N, W>, steps: u64)
 where
-    L: InLanes<M, N>,
+    L: FlowInLanes<M, N>,
 {
     runs.advance(steps);
 }
@@ -127,7 +128,7 @@ fn in_lanes<L, M, const N: usize, const W: usize>(
     [h, steps]: [f64; 2],
 ) -> [Option<State<f64, N>>; W]
 where
-    L: InLanes<M, N, Scalar = f64>,
+    L: FlowInLanes<M, N, Scalar = f64>,
 {
     let (systems, starts) = (black_box([system; W]), black_box([start; W]));
     let mut runs = LaneRuns::new(method, systems, &starts, h);
@@ -137,7 +138,7 @@ where
 
 fn row<L, M, const N: usize>(name: &str, method: M, system: &L, start: State<f64, N>, [time, steps]: [f64; 2])
 where
-    L: InLanes<M, N, Scalar = f64>,
+    L: FlowInLanes<M, N, Scalar = f64>,
     M: Copy,
 {
     let of = [time / steps, steps];

@@ -9,7 +9,7 @@ use std::{env, fs};
 
 use anyhow::{Context, Result, ensure};
 use dalembert::nalgebra::SVector;
-use dalembert::run::InLanes;
+use dalembert::step::FlowInLanes;
 use dalembert::{Discretise, Gauss, Lagrangian, Splitting, State, StepError};
 use dalembert_ensemble::{Cancelled, Ensemble};
 use dalembert_examples::results;
@@ -241,15 +241,15 @@ where
 type Goal<'a, const N: usize> = (f64, Candidate<'a, Ends<N>>);
 
 /// A method in lanes, by so many steps.
-trait InLanesOf<'a, S, const N: usize> {
+trait CandidatesInLanes<'a, S, const N: usize> {
     /// To rounding, or as far as each of the errors asked for needs.
     fn candidates(self, name: &'static str, runs: &Runs<'a, S, N>) -> Vec<Goal<'a, N>>;
 }
 
-impl<'a, S, const N: usize, const K: usize, const COMPENSATED: bool> InLanesOf<'a, S, N>
+impl<'a, S, const N: usize, const K: usize, const COMPENSATED: bool> CandidatesInLanes<'a, S, N>
     for Splitting<K, COMPENSATED>
 where
-    S: InLanes<Self, N> + Lagrangian<N, Scalar = f64> + Copy + Send + Sync + 'a,
+    S: FlowInLanes<Self, N> + Lagrangian<N, Scalar = f64> + Copy + Send + Sync + 'a,
 {
     fn candidates(self, name: &'static str, runs: &Runs<'a, S, N>) -> Vec<Goal<'a, N>> {
         let (member, h, steps) = (runs.member(), runs.time / runs.steps, runs.steps as u64);
@@ -258,9 +258,9 @@ where
     }
 }
 
-impl<'a, S, const N: usize, const K: usize> InLanesOf<'a, S, N> for Gauss<K>
+impl<'a, S, const N: usize, const K: usize> CandidatesInLanes<'a, S, N> for Gauss<K>
 where
-    S: InLanes<Self, N> + Lagrangian<N, Scalar = f64> + Copy + Send + Sync + 'a,
+    S: FlowInLanes<Self, N> + Lagrangian<N, Scalar = f64> + Copy + Send + Sync + 'a,
 {
     fn candidates(self, name: &'static str, runs: &Runs<'a, S, N>) -> Vec<Goal<'a, N>> {
         let solved_for = |error| {
@@ -278,7 +278,7 @@ where
 /// The method with the double pendulum whose sums are rounded with the products in them.
 struct Fused<M>(M);
 
-impl<'a, const K: usize> InLanesOf<'a, DoublePendulum, 2> for Fused<Gauss<K>> {
+impl<'a, const K: usize> CandidatesInLanes<'a, DoublePendulum, 2> for Fused<Gauss<K>> {
     fn candidates(self, name: &'static str, runs: &Runs<'a, DoublePendulum, 2>) -> Vec<Goal<'a, 2>> {
         let Runs { scene: DoublePendulum { m, l, g, c }, starts, time, steps, pool } = *runs;
         let scene = fused::DoublePendulum { m, l, g, c };

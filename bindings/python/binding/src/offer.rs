@@ -2,11 +2,11 @@
 
 use core::marker::PhantomData;
 
-use dalembert::run::{Discretise, DrivenTrajectory, InLanes as LanesBy, Stop};
-use dalembert::step::{ClosedForm, Discrete, Flow, ForceWork, Linearizable, Memory, Step};
+use dalembert::run::{Discretise, DrivenTrajectory, Stop};
+use dalembert::step::{ClosedForm, Discrete, Flow, FlowInLanes, ForceWork, Linearizable, Memory, Step};
 use dalembert::tolerance::{OffersMethods, ToleranceError};
 use dalembert::{State, StepError};
-use dalembert_ensemble::{InLanes, OneByOne, Plan, ToError};
+use dalembert_ensemble::{OneByOne, Plan, SideBySide, ToError};
 use dalembert_face::{ByInput, ByParameters, Column};
 
 use crate::checks::{self, Checks};
@@ -233,7 +233,7 @@ struct ByInLanes<M>(M);
 impl<S, M, const N: usize> Probe<S, M, N>
 where
     S: System<N>,
-    for<'a> S::View<'a>: LanesBy<M, N>,
+    for<'a> S::View<'a>: FlowInLanes<M, N>,
     M: Copy + Send + Sync + 'static,
 {
     /// Steps by the method, of many in lanes.
@@ -246,7 +246,7 @@ where
 impl<S, M, const N: usize> Steps<S, N> for ByInLanes<M>
 where
     S: System<N>,
-    for<'a> S::View<'a>: LanesBy<M, N>,
+    for<'a> S::View<'a>: FlowInLanes<M, N>,
     M: Copy + Send + Sync + 'static,
 {
     fn run(
@@ -261,7 +261,7 @@ where
     }
 
     fn together<'a>(&self, plan: Plan<f64>) -> Box<dyn Together<S::View<'a>, N> + 'a> {
-        Box::new(InLanes::new(self.0, plan))
+        Box::new(SideBySide::new(self.0, plan))
     }
 
     fn linearized(

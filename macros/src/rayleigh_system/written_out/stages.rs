@@ -20,7 +20,6 @@ use super::*;
 #[derive(Default)]
 pub(super) struct StagesWritten {
     pub(super) function: Option<TokenStream>,
-    pub(super) in_lanes: Option<TokenStream>,
     /// Why they are not written, if they were to be.
     pub(super) lacks: Option<&'static str>,
 }
@@ -111,8 +110,9 @@ impl Code<'_> {
         }
         let reciprocals = self.of_corrections_alone(&outputs);
         let anchored = Anchored(&reciprocals);
-        let in_lanes =
-            self.system.lanes.gauss.as_ref().map(|_| self.stages_in_lanes(&outputs, &late, anchored));
+        if self.system.lanes.gauss.is_some() {
+            self.in_lanes.stages = Some(self.stage_lines(&outputs, &late, anchored));
+        }
         let mut taken = vec!["q", "v", "p", "rate", "momenta", "anchors", "angles", "reciprocals"];
         if self.system.home() == Home::View {
             taken.extend(["u", "t", "elapsed"]);
@@ -141,7 +141,8 @@ impl Code<'_> {
             (format_ident!("stages"), " G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages.", None)
         };
         let lanes = quote!(Lanes<#scalar, #stages>);
-        let Anchors { ty, parameter: anchors, apart } = Anchors::new(&line, &lanes, self.system.is_fused);
+        let Anchors { ty, parameter: anchors, apart } =
+            Anchors::new(&line, &lanes, self.system.fused.is_some());
         let inline = inlined_on_lanes(&quote!(#statements #later));
         let function = quote! {
             type Anchors<const #stages: usize> = #ty;
@@ -164,7 +165,7 @@ impl Code<'_> {
                 Stages { rate, residual: [#(#residuals),*], correction: [#(#corrections),*] }
             }
         };
-        Ok(StagesWritten { function: Some(function), in_lanes, lacks: None })
+        Ok(StagesWritten { function: Some(function), lacks: None })
     }
 
     /// G = ∂L/∂q − ∂R/∂v + f.
