@@ -8,6 +8,7 @@
 pub mod attribute;
 pub mod check;
 mod conditions;
+mod constraints;
 mod contexts;
 mod decide;
 mod depth;

@@ -2,6 +2,7 @@
 //!
 //! Uses numbers and systems. What rules there are, it does not know.
 
+mod border;
 pub(crate) mod cause;
 mod closed_form;
 mod defect;
@@ -17,6 +18,7 @@ mod error;
 pub(crate) mod flow;
 mod force_work;
 mod fused;
+mod holonomic;
 pub(crate) mod in_lanes;
 mod kernel;
 mod legendre;
@@ -38,6 +40,7 @@ mod velocity_history;
 
 pub use crate::numbers::{Banded, NewtonMatrix, Singular};
 pub use crate::system::Quantity;
+pub use border::{Border, Free};
 pub use closed_form::ClosedForm;
 pub(crate) use closed_form::{ByFormula, Formulas};
 pub use defect::Defect;
@@ -53,6 +56,7 @@ pub use error::StepError;
 pub use flow::{BoundedFlow, Flow, Memory};
 pub use force_work::{EnergyExchange, ForceWork};
 pub use fused::Fused;
+pub use holonomic::Holonomic;
 pub use in_lanes::{DiscreteInLanes, FlowInLanes};
 pub(crate) use in_lanes::{Ends, KeptOf, LaneRuns, MemoryInLanes};
 pub use kernel::{Momenta, MomentaBy, StepKernel};

@@ -9,6 +9,7 @@
 //! Uses numbers, of which those that it speaks in are shown here.
 
 mod acting_force;
+mod constrained;
 mod continuous;
 mod described;
 mod driven;
@@ -33,6 +34,8 @@ pub use crate::numbers::{
     Lanes, Mask, Scalar, Variations,
 };
 pub use acting_force::ActingForce;
+pub(crate) use constrained::sizes;
+pub use constrained::{Constrained, Violation, violation};
 pub use continuous::{Force, Lagrangian, Rayleigh};
 pub(crate) use continuous::{derivatives_apart, is_timed};
 pub use described::Described;

@@ -34,17 +34,22 @@ fn block<'a>(source: &'a Source, options: &Options, report: &mut Report) -> Opti
         return None;
     };
     let shape = signature::shape(&lagrangian.sig, source.name(), report)?;
-    let (mut bodies, mut takes, mut input) = (Vec::new(), [None; Part::ALL.len()], None);
+    let (mut bodies, mut takes) = (Vec::new(), [None; Part::ALL.len()]);
+    let (mut input, mut constraints) = (None, None);
     for (part, takes) in Part::ALL.into_iter().zip(&mut takes) {
         let Some(function) = named(part.name()) else { continue };
         let before = report.count();
-        let (arguments, length) = signature::arguments(&function.sig, part, &shape, report);
-        (*takes, input) = (Some(arguments), input.or(length));
+        let stated = signature::stated(&function.sig, part, &shape, report);
+        *takes = Some(stated.takes);
+        input = input.or(stated.input);
+        constraints = constraints.or(stated.result);
         let has_right_signature = report.count() == before;
         bodies.push(Body { function: function.clone(), has_right_signature });
     }
+    let degrees = |length| Degrees { length, system: source.name().clone() };
     let system = System {
-        input: input.map(|length| Degrees { length, system: source.name().clone() }),
+        input: input.map(degrees),
+        constraints: constraints.map(degrees),
         ..of_shape(source, source.name(), shape, options, (takes, bodies))
     };
     let generated =
@@ -186,6 +191,7 @@ fn of_shape<'a>(
         bodies,
         takes,
         input: None,
+        constraints: None,
         parameters: options.parameters.clone(),
         second: options.second,
         lanes: options.lanes.clone(),

@@ -237,6 +237,7 @@ fn stubs(
                 impl ::dalembert::generated::Fused<::dalembert::generated::#rules, #n> for #name {
                     type Matrix = ::dalembert::nalgebra::SMatrix<#scalar, #n, #n>;
                     type Memory = ::dalembert::generated::VelocityHistory<#scalar, #n>;
+                    type Border = ::dalembert::generated::Free;
                     fn step_kernel(&self, _: &::dalembert::generated::Segment<#scalar, #n>) -> ::dalembert::generated::StepKernel<#scalar, #n> { ::core::unreachable!() }
                     fn momenta(&self, _: &::dalembert::generated::Segment<#scalar, #n>) -> ::dalembert::generated::Momenta<#scalar, #n> { ::core::unreachable!() }
                 }

@@ -66,6 +66,8 @@ pub struct Lowered {
     pub force: Option<Vec<Node>>,
     /// σ, the time scale.
     pub time_scale: Option<Node>,
+    /// The constraints, one by one.
+    pub constraints: Option<Vec<Node>>,
     /// The functions of the block that were run.
     pub functions: Vec<Ident>,
     /// Methods taken for those of slices, each called on an array of so many numbers: rustc has to agree.
@@ -152,13 +154,18 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
         let Some(value) = value else { continue };
         let components = match (part.entry().returns, value) {
             (Returns::Number, number) => vec![number],
-            (Returns::Covector, Value::Sequence(components)) => components,
-            _ => return refuse(at, "the force is not an array whose entries can be told apart"),
+            (Returns::Covector | Returns::Numbers, Value::Sequence(components)) => components,
+            (Returns::Covector, _) => {
+                return refuse(at, "the force is not an array whose entries can be told apart");
+            }
+            (Returns::Numbers, _) => {
+                return refuse(at, "the constraints are not an array whose entries can be told apart");
+            }
         };
         let components = components.into_iter().map(|component| lowering.scalar(at, component));
         *roots = Some(components.collect::<Result<Vec<_>>>()?);
     }
-    let [lagrangian, rayleigh, force, time_scale] = roots;
+    let [lagrangian, rayleigh, force, time_scale, constraints] = roots;
     let number = |roots: Option<Vec<Node>>| roots.and_then(|roots| roots.first().copied());
     let Some(lagrangian) = number(lagrangian) else {
         return refuse(at, "there is no Lagrangian");
@@ -174,6 +181,7 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
         rayleigh: number(rayleigh),
         force,
         time_scale: number(time_scale),
+        constraints,
         functions,
         of_arrays,
         bindings,

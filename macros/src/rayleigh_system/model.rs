@@ -113,6 +113,8 @@ pub struct System<'a> {
     pub takes: [Option<Arguments>; Part::ALL.len()],
     /// The number of entries of the input u, if there is one.
     pub input: Option<Degrees>,
+    /// The number of constraints, if there are any.
+    pub constraints: Option<Degrees>,
     /// Fields that the step is differentiated by, as listed: `m`, `c[0]`.
     pub parameters: Vec<Expr>,
     /// Whether the step is differentiated twice.
@@ -180,6 +182,11 @@ impl System<'_> {
         self.input.as_ref().map_or_else(|| quote!(0), |input| input.times(1))
     }
 
+    /// The number of constraints as a const generic argument, 0 where there are none.
+    pub fn constraint_count(&self) -> TokenStream {
+        self.constraints.as_ref().map_or_else(|| quote!(0), |count| count.times(1))
+    }
+
     /// P as a const generic argument.
     pub fn parameter_count(&self) -> Literal {
         Literal::usize_unsuffixed(self.parameters.len())
@@ -202,6 +209,7 @@ impl System<'_> {
             Part::Lagrangian => is_timed(part),
             Part::Rayleigh => is_timed(Part::Lagrangian) || is_timed(part),
             Part::Force | Part::TimeScale => self.has_view(),
+            Part::Constraints => false,
         };
         if needs_view { Home::View } else { Home::System }
     }

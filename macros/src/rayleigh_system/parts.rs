@@ -8,6 +8,7 @@ pub enum Part {
     Rayleigh,
     Force,
     TimeScale,
+    Constraints,
 }
 
 /// A choice of the arguments that there are, which stand in this order.
@@ -44,6 +45,8 @@ pub enum Returns {
     Number,
     /// A covector at q, with N entries.
     Covector,
+    /// Numbers, as many as its type says.
+    Numbers,
 }
 
 /// All that the macro knows of a function's signature.
@@ -63,7 +66,8 @@ pub struct Entry {
 
 impl Part {
     /// In the order in which their signatures are checked and their bodies lowered.
-    pub const ALL: [Self; 4] = [Self::Lagrangian, Self::Rayleigh, Self::Force, Self::TimeScale];
+    pub const ALL: [Self; 5] =
+        [Self::Lagrangian, Self::Rayleigh, Self::Force, Self::TimeScale, Self::Constraints];
 
     /// The name of the function.
     pub fn name(self) -> &'static str {
@@ -103,6 +107,14 @@ impl Part {
                 may_take: Arguments::Q,
                 returns: Returns::Number,
                 parameters: "`(&self, q: [f64; N])` alone: steps follow the configuration",
+                is_term: false,
+            },
+            Self::Constraints => Entry {
+                name: "constraints",
+                takes: Arguments::Q,
+                may_take: Arguments::Q,
+                returns: Returns::Numbers,
+                parameters: "`(&self, q: [f64; N])` alone: constraints hold the configuration",
                 is_term: false,
             },
         }

@@ -1,6 +1,7 @@
 //! The traits of the runtime, implemented for a system with the functions that either engine makes: each
 //! function below writes one `impl`, and the comment above each quotation shows what it expands to.
 
+mod constrained;
 mod continuous;
 mod fused;
 mod imports;
@@ -32,6 +33,8 @@ pub struct EngineFunctions {
     pub force: Option<TokenStream>,
     /// σ and its gradient.
     pub time_scale: Option<TokenStream>,
+    /// The gradients and the curvature of the constraints.
+    pub constraints: Option<TokenStream>,
     /// The derivative of f by the input.
     pub by_input: Option<TokenStream>,
     /// Sizes of the terms that cancel in the equations of motion, where some can.
@@ -78,6 +81,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
     let rayleigh = functions.rayleigh.map(|derivatives| continuous::rayleigh(system, derivatives));
     let force = functions.force.map(|derivatives| continuous::force(system, derivatives));
     let time_scale = functions.time_scale.map(|function| continuous::time_scale(system, function));
+    let constrained = functions.constraints.map(|functions| constrained::constrained(system, functions));
     let acting = continuous::acting_force(system, functions.cancelling_terms);
     let forced = system.rules.gauss.then(|| continuous::forced_lagrangian(system, functions.stages));
     let driven = functions.by_input.and_then(|by_input| on_request::driven(system, by_input));
@@ -104,6 +108,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
             #rayleigh
             #force
             #time_scale
+            #constrained
             #acting
             #forced
             #driven

@@ -4,6 +4,7 @@
 
 mod body;
 mod cancelling;
+mod constraints;
 mod derivatives;
 mod directions;
 mod entries;
@@ -97,13 +98,14 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         rayleigh,
         force,
         time_scale,
+        constraints,
         functions: run,
         of_arrays,
         bindings,
         heaviest,
     } = lowered;
     let written = graph.len();
-    let components = force.iter().flatten().copied();
+    let components = force.iter().chain(&constraints).flatten().copied();
     let roots: Vec<_> =
         [lagrangian].into_iter().chain(rayleigh).chain(components).chain(time_scale).collect();
     let plain = [(system.scalar.clone(), Taken::Number), (format_ident!("bool"), Taken::Truth)]
@@ -125,6 +127,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
     let of_rayleigh = rayleigh.map(|root| code.function(Part::Rayleigh, "r", root)).transpose()?;
     let of_force = force.map(|components| code.force(components)).transpose()?;
     let time_scale = time_scale.map(|root| code.time_scale(root)).transpose()?;
+    let constraints = constraints.map(|components| code.constraints(&components)).transpose()?;
     let by_input = force
         .zip(system.input.as_ref())
         .map(|(components, input)| code.by_input(components, input))
@@ -155,6 +158,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         rayleigh: of_rayleigh,
         force: of_force,
         time_scale,
+        constraints,
         by_input,
         cancelling_terms,
         places,

@@ -74,6 +74,7 @@ impl<K: HandDerived<N>, const N: usize> ActingForce<N> for ByHand<K> {}
 impl<K: HandDerived<N>, const N: usize> Fused<Midpoint, N> for ByHand<K> {
     type Matrix = K::Matrix;
     type Memory = K::Memory;
+    type Border = dalembert::step::Free;
 
     #[inline]
     fn step_kernel(&self, segment: &Segment<f64, N>) -> StepKernel<f64, N, K::Matrix> {

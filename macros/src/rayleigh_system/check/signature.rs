@@ -31,20 +31,24 @@ pub fn shape(lagrangian: &Signature, system: &Ident, report: &mut Report) -> Opt
     shape
 }
 
-/// The arguments that the function takes, and the length of its input's array.
+/// The arguments that a function takes, and lengths of arrays that it alone knows.
+pub struct Stated {
+    pub takes: Arguments,
+    /// The length of its input, if it takes one.
+    pub input: Option<Expr>,
+    /// The length of its result, if that is [`Returns::Numbers`].
+    pub result: Option<Expr>,
+}
+
+/// The arguments and lengths that the signature states.
 ///
-/// All that is wrong with the signature is reported.
-pub fn arguments(
-    signature: &Signature,
-    part: Part,
-    shape: &Shape,
-    report: &mut Report,
-) -> (Arguments, Option<Expr>) {
+/// All that is wrong with it is reported.
+pub fn stated(signature: &Signature, part: Part, shape: &Shape, report: &mut Report) -> Stated {
     let parameters = qualified(signature, part, report);
     let entry = part.entry();
     let (mut takes, may_take) = (entry.takes, entry.may_take);
     let takes_both = (takes.q && takes.v) || (may_take.q && may_take.v && begins_by_both(&parameters, shape));
-    let mut length = None;
+    let mut input = None;
     match (takes_both, &parameters[..]) {
         (true, &[q, v, ref after @ ..])
             if may_take.has_after(after.len()) && !(may_take.u && lacks_point(q, v, shape)) =>
@@ -54,19 +58,19 @@ pub fn arguments(
             at_place(v.0, Place::Velocity, report);
             same_shape(q.1, "q", shape, report);
             same_shape(v.1, "v", shape, report);
-            (length, takes.t) = after_point(after, may_take, shape, report);
+            (input, takes.t) = after_point(after, may_take, shape, report);
         }
         (false, &[(of_point, point), ref after @ ..]) if may_take.has_after(after.len()) => {
             let (name, place) = if takes.v { ("v", Place::Velocity) } else { ("q", Place::Configuration) };
             at_place(of_point, place, report);
             same_shape(point, name, shape, report);
-            (length, takes.t) = after_point(after, may_take, shape, report);
+            (input, takes.t) = after_point(after, may_take, shape, report);
         }
         _ => other_parameters(signature, part, report),
     }
-    takes.u = length.is_some();
-    returned(signature, part, shape, report);
-    (takes, length)
+    takes.u = input.is_some();
+    let result = returned(signature, part, shape, report);
+    Stated { takes, input, result }
 }
 
 /// Whether q and v are the first two, where q may be left out.
@@ -151,16 +155,27 @@ fn other_parameters(signature: &Signature, part: Part, report: &mut Report) {
     report.at(&signature.ident, Mistake::Parameters { function, expected });
 }
 
-/// Reports a result of another type than the function has.
-fn returned(signature: &Signature, part: Part, shape: &Shape, report: &mut Report) {
+/// The length of the result, where the function alone knows it; a result of another type is reported.
+fn returned(signature: &Signature, part: Part, shape: &Shape, report: &mut Report) -> Option<Expr> {
     let Entry { name: function, returns, .. } = part.entry();
     let expected = match (returns, result(signature)) {
-        (Returns::Covector, Some(ty @ Type::Array(_))) => return same_shape(ty, function, shape, report),
-        (Returns::Number, Some(ty)) if is(ty, &shape.scalar) => return,
+        (Returns::Covector, Some(ty @ Type::Array(_))) => {
+            same_shape(ty, function, shape, report);
+            return None;
+        }
+        (Returns::Number, Some(ty)) if is(ty, &shape.scalar) => return None,
+        (Returns::Numbers, Some(Type::Array(array))) => {
+            if !is(&array.elem, &shape.scalar) {
+                report.at(&array.elem, Mistake::OtherScalar { expected: shape.scalar.to_string() });
+            }
+            return Some(array.len.clone());
+        }
         (Returns::Covector, _) => format!("`[{}; N]`, a covector at q", shape.scalar),
+        (Returns::Numbers, _) => format!("`[{}; M]`, an array of M numbers", shape.scalar),
         (Returns::Number, _) => format!("`{}`", shape.scalar),
     };
     report.at(&result_tokens(signature), Mistake::Returns { function, expected });
+    None
 }
 
 /// Reports qualifiers and generics that no differentiated function can have.

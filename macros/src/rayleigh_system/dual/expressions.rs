@@ -62,6 +62,10 @@ fn over(system: &System<'_>, lowered: &Lowered, part: Part, outputs: &[Node]) ->
     let (result, value) = match part.entry().returns {
         Returns::Covector => (quote!([Real<D>; #n]), quote!([#(#values),*])),
         Returns::Number => (quote!(Real<D>), quote!(#(#values)*)),
+        Returns::Numbers => {
+            let count = values.len();
+            (quote!([Real<D>; #count]), quote!([#(#values),*]))
+        }
     };
     let text = format!(" `{}` over plain and dual numbers.", part.name());
     quote! {

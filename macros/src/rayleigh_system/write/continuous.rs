@@ -6,11 +6,12 @@ use quote::{format_ident, quote};
 use super::super::model::{Home, Source, System};
 use super::super::parts::Part;
 use super::super::structure::{Engine, Structure};
+use super::constrained;
 use super::item::PlainFields;
 use super::view::{self, arguments, owner, subject};
 
 /// The plain value of a part at the vectors q and v.
-fn value(system: &System<'_>, part: Part) -> TokenStream {
+pub fn value(system: &System<'_>, part: Part) -> TokenStream {
     match system.source {
         Source::Block(_) => {
             let function = format_ident!("{}", part.name());
@@ -48,7 +49,8 @@ pub fn lagrangian(
         let is_expanded = matches!(structure.engine, Engine::Expanded);
         let missing = (!is_expanded || places.is_some()).then(|| without_derivative(system, home));
         let non_finite = non_finite_value(system, home, plain.names_fields);
-        quote!(#verification #missing #places #non_finite)
+        let violation = constrained::violation(system);
+        quote!(#verification #missing #places #non_finite #violation)
     };
     let of_view = system.has_view().then(|| asked(Home::View));
     let asked = asked(home);
@@ -121,6 +123,12 @@ fn verification(system: &System<'_>, home: Home) -> TokenStream {
     let parts: Vec<_> = parts.map(Part::name).collect();
     let time_scale = (system.has(Part::TimeScale) && home == system.home())
         .then(|| quote!(::dalembert::generated::verification::time_scale(self, q)?;));
+    let (n, m) = (system.degrees.times(1), system.constraint_count());
+    let constraints = system
+        .constraints
+        .as_ref()
+        .map(|_| quote!(::dalembert::generated::verification::constraints::<_, #n, #m>(self, q)?;));
+    let before = quote!(#time_scale #constraints);
     // fn verify_generated(&self, q: …, v: …) -> Result<(), GeneratedDiffers> {
     //     verification::lagrangian(self, q, v)?; verification::rayleigh(self, q, v)
     // }
@@ -140,7 +148,8 @@ fn verification(system: &System<'_>, home: Home) -> TokenStream {
             }
         })
     };
-    let functions = [function("verify_generated", "", time_scale), function("verify_slopes", "_slope", None)];
+    let functions =
+        [function("verify_generated", "", Some(before)), function("verify_slopes", "_slope", None)];
     quote!(#(#functions)*)
 }
 
@@ -246,12 +255,18 @@ pub fn acting_force(system: &System<'_>, cancelling_terms: Option<TokenStream>) 
             const IS_TIMED: bool = true;
         )
     });
+    let constrained = system.constraints.is_some().then(|| {
+        quote!(
+            const IS_CONSTRAINED: bool = true;
+        )
+    });
     quote! {
         #[automatically_derived]
         impl ActingForce<#n> for #subject {
             #rayleigh
             #force
             #timed
+            #constrained
             #cancelling_terms
         }
     }

@@ -60,6 +60,8 @@ pub fn fused(
         }
     };
     let memory = match memory {
+        // The others solve a step without a border.
+        _ if system.constraints.is_some() => quote!(::dalembert::generated::VelocityHistory<#scalar, #n>),
         Memory::Velocities => quote!(::dalembert::generated::VelocityHistory<#scalar, #n>),
         Memory::Matrix => quote!(::dalembert::generated::KeptMatrix<#scalar, Self::Matrix, #n>),
         Memory::Explicit => quote!(::dalembert::generated::ExplicitMemory<#scalar, Self::Matrix, #n>),
@@ -68,12 +70,20 @@ pub fn fused(
             quote!(::dalembert::generated::#name<#scalar, #n>)
         }
     };
+    let border = match &system.constraints {
+        None => quote!(::dalembert::generated::Free),
+        Some(count) => {
+            let m = count.times(1);
+            quote!(::dalembert::generated::Holonomic<#m>)
+        }
+    };
     let linear = is_linear.then(|| {
         quote!(
             const LINEAR: bool = true;
         )
     });
     // impl Explicit<2> for Ring
+    let explicit = explicit.filter(|_| system.constraints.is_none());
     let explicit = explicit.map(|functions| {
         quote! {
             #[automatically_derived]
@@ -92,6 +102,7 @@ pub fn fused(
         impl Fused<#name, #n> for #subject {
             type Matrix = #matrix;
             type Memory = #memory;
+            type Border = #border;
             #linear
             #written_out
 
@@ -162,6 +173,9 @@ fn cancelling_terms(system: &System<'_>, rule: Rule) -> TokenStream {
 
 /// `impl OffersMethods<2> for Ring`: what an error can be asked of.
 pub fn offered_methods(system: &System<'_>, is_explicit: bool) -> Option<TokenStream> {
+    if system.constraints.is_some() {
+        return None;
+    }
     let mut rules = system.rules.of_displacement.iter();
     let rule =
         rules.find(|rule| if is_explicit { rule.may_be_explicit() } else { rule.entry().is_self_adjoint });

@@ -192,7 +192,7 @@ impl Code<'_> {
     }
 
     /// `a[0]`
-    fn vector_entry(&mut self, vector: &str, index: usize) -> Node {
+    pub(super) fn vector_entry(&mut self, vector: &str, index: usize) -> Node {
         self.graph.entry(vector, index)
     }
 }

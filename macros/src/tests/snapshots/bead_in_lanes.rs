@@ -178,6 +178,7 @@ const _: () = {
     impl Fused<Trapezoidal, 1> for Bead {
         type Matrix = SMatrix<f64, 1, 1>;
         type Memory = ::dalembert::generated::ExplicitMemory<f64, Self::Matrix, 1>;
+        type Border = ::dalembert::generated::Free;
         const LINEAR: bool = true;
         const WRITTEN_OUT: bool = true;
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.

@@ -120,6 +120,7 @@ impl ActingForce<1> for Counted {}
 impl Fused<Midpoint, 1> for Counted {
     type Matrix = SMatrix<f64, 1, 1>;
     type Memory = VelocityHistory<f64, 1>;
+    type Border = dalembert::step::Free;
 
     fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {
         Midpoint::lagrangian_kernel(self, segment)
