@@ -21,6 +21,7 @@
 //! step is given F, whose root is the step on N, with the matrix W: band, guesses, damping and verdicts stay
 //! as they are, and no second derivative of g is asked for.
 
+mod columns;
 mod complement;
 mod equation;
 mod inertia;

@@ -75,20 +75,19 @@ where
 {
     let (values, gradients) = system.constraint_gradients(q);
     let rates = system.constraint_rates(q);
-    for constraint in 0..M {
-        let size = sizes(&gradients, q, constraint);
-        let value = values[constraint];
-        // A constraint of a distance has terms of the size of its gradient, wherever the origin is.
-        if exceeds(value, size + largest(&gradients, constraint)) {
+    // A constraint of a distance has terms of the size of its gradient, wherever the origin is.
+    let sizes_of_values = sizes(&gradients, &(q.abs() + SVector::repeat(L::Scalar::constant(1.0))));
+    let rounded = values.as_slice().iter().zip(sizes_of_values.as_slice());
+    for (constraint, (value, size)) in rounded.enumerate() {
+        if exceeds(*value, *size) {
             return Some(Violation::Off { constraint, value: value.widen() });
         }
     }
-    for constraint in 0..M {
-        let mut rate = rates[constraint];
-        for j in 0..N {
-            rate += gradients[(constraint, j)] * v[j];
-        }
-        if exceeds(rate, sizes(&gradients, v, constraint) + rates.abs()[constraint]) {
+    let of_velocities = gradients * v + rates;
+    let sizes_of_rates = sizes(&gradients, v) + rates.abs();
+    let rounded = of_velocities.as_slice().iter().zip(sizes_of_rates.as_slice());
+    for (constraint, (rate, size)) in rounded.enumerate() {
+        if exceeds(*rate, *size) {
             return Some(Violation::Leaving { constraint, rate: rate.widen() });
         }
     }
@@ -101,24 +100,16 @@ fn exceeds<S: Scalar>(amount: S, size: S) -> bool {
     amount.abs() > most || !amount.is_finite()
 }
 
-/// Σⱼ |Gₖⱼ||xⱼ|.
+/// Σⱼ |Gₖⱼ||xⱼ| for each constraint k.
 pub(crate) fn sizes<S: Scalar, const N: usize, const M: usize>(
     gradients: &SMatrix<S, M, N>,
     x: &SVector<S, N>,
-    constraint: usize,
-) -> S {
-    let mut size = S::zero();
-    for j in 0..N {
-        size += (gradients[(constraint, j)] * x[j]).abs();
+) -> SVector<S, M> {
+    let mut sums: SVector<S, M> = nalgebra::zero();
+    for (column, x) in gradients.data.0.iter().zip(x.as_slice()) {
+        for (sum, entry) in sums.as_mut_slice().iter_mut().zip(column) {
+            *sum += (*entry * *x).abs();
+        }
     }
-    size
-}
-
-/// maxⱼ |Gₖⱼ|.
-fn largest<S: Scalar, const N: usize, const M: usize>(gradients: &SMatrix<S, M, N>, constraint: usize) -> S {
-    let mut largest = S::zero();
-    for j in 0..N {
-        largest = largest.max(gradients[(constraint, j)].abs());
-    }
-    largest
+    sums
 }

@@ -29,10 +29,10 @@ impl<S: Scalar, const M: usize> Complement<S, M> {
             return Some(Self { factored, refined_by: None });
         }
         let mut largest = S::zero();
-        for k in 0..M {
-            largest = largest.max(matrix[(k, k)].abs());
+        for (k, column) in matrix.data.0.iter().enumerate() {
+            largest = largest.max(column.get(k).map_or(largest, |entry| entry.abs()));
         }
-        let epsilon = largest * S::constant(SHARE * S::EPSILON.widen().sqrt());
+        let epsilon = largest * S::EPSILON.sqrt() * S::constant(SHARE);
         let regular = matrix + SMatrix::identity() * epsilon;
         let factored = NewtonMatrix::factored(&regular)?;
         Some(Self { factored, refined_by: Some(*matrix) })

@@ -4,6 +4,7 @@ use core::cell::RefCell;
 
 use nalgebra::{SMatrix, SVector};
 
+use super::columns::by_columns;
 use super::complement::Complement;
 use super::nearest::{dependent, tangent};
 use crate::numbers::{Factored, NewtonMatrix, Scalar, Singular};
@@ -56,10 +57,9 @@ fn beyond_rounding<S: Scalar, const N: usize, const M: usize>(
     segment: &Segment<S, N>,
 ) -> SVector<S, M> {
     let unit = S::EPSILON * S::constant(ROUNDINGS);
-    let places = segment.q0.abs() + (segment.v * segment.h).abs();
-    for k in 0..M {
-        let explained = sizes(gradients, &places, k) * unit;
-        values[k] = if values[k].abs() <= explained { S::zero() } else { values[k] / segment.h };
+    let sizes = sizes(gradients, &(segment.q0.abs() + (segment.v * segment.h).abs()));
+    for (value, size) in values.as_mut_slice().iter_mut().zip(sizes.as_slice()) {
+        *value = if value.abs() <= *size * unit { S::zero() } else { *value / segment.h };
     }
     values
 }
@@ -87,10 +87,7 @@ where
             self.system.constraint_gradients(&segment.q0).1.transpose()
         };
         let matrix = matrix.factored()?;
-        let mut answers = directions;
-        for k in 0..M {
-            answers.set_column(k, &matrix.solve(&directions.column(k).into_owned()));
-        }
+        let answers = by_columns(&directions, |direction| matrix.solve(direction));
         let complement = Complement::of(&(gradients * answers))?;
         Some(Bordered { matrix, directions, gradients, complement })
     }

@@ -63,15 +63,15 @@ impl<S: Scalar, const N: usize> Inertia<S, N> {
 fn inverse_of_diagonal<S: Scalar, const N: usize>(mass: &SMatrix<S, N, N>) -> Option<SVector<S, N>> {
     let mut inverse: SVector<S, N> = nalgebra::zero();
     let mut beside = S::zero();
-    for j in 0..N {
-        for i in 0..N {
+    for (j, (column, inverse)) in mass.data.0.iter().zip(inverse.as_mut_slice()).enumerate() {
+        for (i, entry) in column.iter().enumerate() {
             if i == j {
-                inverse[j] = S::one() / mass[(i, j)];
+                *inverse = S::one() / *entry;
             } else {
-                beside += mass[(i, j)].abs();
+                beside += entry.abs();
             }
         }
     }
-    let is_regular = (0..N).all(|j| inverse[j].is_finite() && inverse[j] != S::zero());
+    let is_regular = inverse.as_slice().iter().all(|inverse| inverse.is_finite() && *inverse != S::zero());
     (beside == S::zero() && is_regular).then_some(inverse)
 }

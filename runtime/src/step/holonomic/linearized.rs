@@ -11,11 +11,11 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::columns::by_columns;
 use super::complement::Complement;
 use super::equation::OnConstraints;
 use super::inertia::Inertia;
 use super::nearest::AtPoint;
-use crate::numbers::Scalar;
 use crate::step::{
     ClosedForm, Discrete, DiscreteObjects, LegendreDerivatives, PhaseMatrix, Segment, State, Step, StepError,
     invert,
@@ -51,13 +51,7 @@ where
         let held = |dq: &SMatrix<L::Scalar, N, N>, dp: SMatrix<L::Scalar, N, N>| {
             let dp = dp + bent * dq;
             let left = by_q * dq + at.answers.transpose() * dp;
-            let mut answer = dp;
-            for j in 0..N {
-                let dmu = at.complement.solve(&left.column(j).into_owned());
-                let column = answer.column(j) - at.gradients.transpose() * dmu;
-                answer.set_column(j, &column);
-            }
-            answer
+            dp - at.gradients.transpose() * by_columns(&left, |left| at.complement.solve(left))
         };
         let on_constraints = PhaseMatrix {
             q_by_q: raw,
@@ -86,11 +80,7 @@ where
     let answers = free * first.transpose();
     let singular = StepError::DependentConstraints { constraint: 0 };
     let complement = Complement::of(&(last * answers)).ok_or(singular)?;
-    let mut by_p = free;
-    for j in 0..N {
-        let column = free.column(j).into_owned();
-        by_p.set_column(j, &(column - answers * complement.solve(&(last * column))));
-    }
+    let by_p = by_columns(&free, |column| column - answers * complement.solve(&(last * column)));
     let by_q = -(by_p * (k.p0_by_q0 - system.constraint_curvature(&segment.q0, kappa)));
     Ok((by_q, by_p))
 }
@@ -106,22 +96,11 @@ where
     let v = state.velocity(system)?;
     let at = AtPoint::<_, N, M>::of(system, &state.q, Inertia::at(system, &state.q, &v)?)?;
     let by_q = slope_of_rates::<L, N, M>(system, &state.q, &v, &at);
-    let mut q_by_q = SMatrix::<L::Scalar, N, N>::identity();
-    let mut p_by_p = q_by_q;
-    for j in 0..N {
-        let along = at.complement.solve(&at.gradients.column(j).into_owned());
-        let column = q_by_q.column(j) - at.answers * along;
-        q_by_q.set_column(j, &column);
-        let along = at.complement.solve(&at.answers.transpose().column(j).into_owned());
-        let column = p_by_p.column(j) - at.gradients.transpose() * along;
-        p_by_p.set_column(j, &column);
-    }
-    let mut p_by_q = nalgebra::zero::<SMatrix<L::Scalar, N, N>>();
-    let left = by_q * q_by_q;
-    for j in 0..N {
-        let along = at.complement.solve(&left.column(j).into_owned());
-        p_by_q.set_column(j, &-(at.gradients.transpose() * along));
-    }
+    let one = SMatrix::<L::Scalar, N, N>::identity();
+    let solved = |left: &SMatrix<L::Scalar, M, N>| by_columns(left, |left| at.complement.solve(left));
+    let q_by_q = one - at.answers * solved(&at.gradients);
+    let p_by_p = one - at.gradients.transpose() * solved(&at.answers.transpose());
+    let p_by_q = -(at.gradients.transpose() * solved(&(by_q * q_by_q)));
     Ok(PhaseMatrix { q_by_q, q_by_p: nalgebra::zero(), p_by_q, p_by_p })
 }
 
@@ -135,12 +114,8 @@ fn slope_of_rates<L, const N: usize, const M: usize>(
 where
     L: Constrained<N, M>,
 {
-    let mut rows = -(at.answers.transpose() * system.lagrangian_derivatives(q, v).d12.transpose());
-    for k in 0..M {
-        let mut one: SVector<L::Scalar, M> = nalgebra::zero();
-        one[k] = L::Scalar::constant(1.0);
-        let row = rows.row(k) + (system.constraint_curvature(q, &one) * v).transpose();
-        rows.set_row(k, &row);
-    }
-    rows
+    let velocity_by_q = system.lagrangian_derivatives(q, v).d12 * at.answers;
+    let one = SMatrix::<L::Scalar, M, M>::identity();
+    let bent = by_columns(&one, |one| system.constraint_curvature(q, one) * v);
+    (bent - velocity_by_q).transpose()
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::columns::by_columns;
 use super::complement::Complement;
 use super::inertia::Inertia;
 use crate::numbers::{Scalar, linear};
@@ -59,7 +60,8 @@ impl<S: Scalar, const N: usize> State<S, N> {
             let correction = at.answers * at.complement.solve(&at.values);
             q -= correction;
             StepError::require_finite(&q, Quantity::Configuration)?;
-            if (0..N).all(|i| correction[i].abs() <= q[i].abs() * S::EPSILON) {
+            let mut entries = correction.as_slice().iter().zip(q.as_slice());
+            if entries.all(|(correction, q)| correction.abs() <= q.abs() * S::EPSILON) {
                 break;
             }
         }
@@ -94,10 +96,7 @@ impl<S: Scalar, const N: usize, const M: usize> AtPoint<S, N, M> {
     ) -> Result<Self, StepError> {
         let (values, gradients) = system.constraint_gradients(q);
         let directions = gradients.transpose();
-        let mut answers = directions;
-        for k in 0..M {
-            answers.set_column(k, &inertia.solve(&directions.column(k).into_owned()));
-        }
+        let answers = by_columns(&directions, |direction| inertia.solve(direction));
         match Complement::of(&(gradients * answers)) {
             Some(complement) => Ok(Self { values, gradients, inertia, answers, complement }),
             None => {
@@ -151,7 +150,8 @@ fn is_held<S: Scalar, const N: usize, const M: usize>(
     rates: &SVector<S, M>,
 ) -> bool {
     let unit = S::EPSILON * S::constant(ROUNDINGS);
-    (0..M).all(|k| left[k].abs() <= (sizes(gradients, v, k) + rates[k].abs()) * unit)
+    let most = (sizes(gradients, v) + rates.abs()) * unit;
+    left.as_slice().iter().zip(most.as_slice()).all(|(left, most)| left.abs() <= *most)
 }
 
 /// The first constraint whose gradient depends on those before it, in the metric of the mass at rest.
