@@ -9,7 +9,8 @@
 use std::hint::black_box;
 
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::run::{FlowInLanes, LaneRuns};
+use dalembert::run::LaneRuns;
+use dalembert::step::FlowInLanes;
 use dalembert::{Composition, Discretise, Gauss, Midpoint, Splitting, State, Trapezoidal, rayleigh_system};
 use dalembert_benches::interleaved::medians_over;
 use multiversion::multiversion;

@@ -3,8 +3,8 @@
 use core::ops::ControlFlow;
 
 use dalembert::State;
-use dalembert::run::{FlowInLanes, LaneRuns, Stop};
-use dalembert::step::MethodOf;
+use dalembert::run::{LaneRuns, Stop};
+use dalembert::step::{FlowInLanes, MethodOf};
 use dalembert::system::Scalar;
 use multiversion::multiversion;
 use multiversion::target::match_target;

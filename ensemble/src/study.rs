@@ -5,8 +5,8 @@ use core::ops::{ControlFlow, Range};
 use core::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use dalembert::run::{FlowInLanes, Stop};
-use dalembert::step::{Flow, MethodOf};
+use dalembert::run::Stop;
+use dalembert::step::{Flow, FlowInLanes, MethodOf};
 use dalembert::tolerance::OffersMethods;
 use dalembert::{Gauss, Lagrangian, State, StepError};
 use rayon::prelude::*;

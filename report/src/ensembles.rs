@@ -9,7 +9,7 @@ use std::{env, fs};
 
 use anyhow::{Context, Result, ensure};
 use dalembert::nalgebra::SVector;
-use dalembert::run::FlowInLanes;
+use dalembert::step::FlowInLanes;
 use dalembert::{Discretise, Gauss, Lagrangian, Splitting, State, StepError};
 use dalembert_ensemble::{Cancelled, Ensemble};
 use dalembert_examples::results;

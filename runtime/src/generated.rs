@@ -26,9 +26,9 @@ pub use crate::step::{DiscreteInLanes, Momenta, Segment, StepKernel};
 #[doc(no_inline)]
 pub use crate::system::{
     ActingForce, CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian, ForcedLagrangianInLanes,
-    Function, GeneratedDiffers, GradientBy, Input, Lagrangian, NewtonStructure, NoDerivative, OfSlice,
-    Operation, Parameters, Place, Plain, PlainFields, Quantity, Rayleigh, Refusal, ScalarField, SecondOrder,
-    SliceMethods, Stages, Structure, TimeScale, VectorField, Written,
+    Function, Gathered, GeneratedDiffers, GradientBy, Input, Lagrangian, NewtonStructure, NoDerivative,
+    OfSlice, Operation, Parameters, Place, Plain, PlainFields, Quantity, Rayleigh, Refusal, ScalarField,
+    SecondOrder, SliceMethods, Stages, Structure, TimeScale, VectorField, Written,
 };
 
 /// Implements [`Described`](crate::system::Described), and makes a macro of the system's name, which hands

@@ -2,7 +2,8 @@
 //! the platform's.
 
 use dalembert::nalgebra::SVector;
-use dalembert::run::{Explicit, FlowInLanes, LaneRuns};
+use dalembert::run::{Explicit, LaneRuns};
+use dalembert::step::FlowInLanes;
 use dalembert::system::Scalar;
 use dalembert::{
     Discretise, Elementary, Force, Gauss, Lagrangian, Midpoint, Rayleigh, Splitting, State, Trapezoidal,

@@ -4,6 +4,7 @@
 mod continuous;
 mod fused;
 mod imports;
+mod in_lanes;
 pub mod item;
 mod on_request;
 pub mod view;
@@ -15,6 +16,7 @@ use syn::Ident;
 use super::model::System;
 use super::structure::{Engine, Structure};
 pub use fused::{Kernel, Memory};
+pub use in_lanes::LaneFunctions;
 use item::PlainFields;
 
 /// The functions that the runtime's traits ask for, as an engine writes them.
@@ -37,10 +39,10 @@ pub struct EngineFunctions {
     pub places: [Option<TokenStream>; 2],
     /// The equations at the stages of Gauss rules, where they are not those that the runtime makes.
     pub stages: Option<TokenStream>,
-    /// The stages' equations of several members at once.
-    pub stages_in_lanes: Option<TokenStream>,
     /// The kernel of each rule of displacement, where the engine writes one.
     pub kernels: Vec<Option<Kernel>>,
+    /// The functions of several members at once, if they are asked for.
+    pub in_lanes: Option<LaneFunctions>,
     /// Derivatives by parameters, if they are asked for.
     pub by_parameters: Option<TokenStream>,
     /// Second derivatives of the step, if they are asked for.
@@ -79,15 +81,13 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
     let force = functions.force.map(|derivatives| continuous::force(system, derivatives));
     let time_scale = functions.time_scale.map(|function| continuous::time_scale(system, function));
     let acting = continuous::acting_force(system, functions.cancelling_terms);
-    let forced = system
-        .rules
-        .gauss
-        .then(|| continuous::forced_lagrangian(system, functions.stages, functions.stages_in_lanes));
+    let forced = system.rules.gauss.then(|| continuous::forced_lagrangian(system, functions.stages));
     let driven = functions.by_input.and_then(|by_input| on_request::driven(system, by_input));
     let by_parameters = functions.by_parameters.map(|functions| on_request::by_parameters(system, functions));
     let second_order = functions.second_order.map(|functions| on_request::second_order(system, functions));
     let rules = system.rules.of_displacement.iter().zip(functions.kernels);
     let fused = rules.map(|(&rule, kernel)| fused::fused(system, rule, (is_expanded, may_cancel), kernel));
+    let in_lanes = functions.in_lanes.map(|functions| in_lanes::in_lanes(system, functions));
     let offered_methods = fused::offered_methods(system, is_explicit);
     let (bindings, plain) = (item::are_bindings(&functions.bindings), functions.plain.implementation);
     let (conditions, quiet) = (item::conditions(system.source), item::quiet());
@@ -112,6 +112,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
             #by_parameters
             #second_order
             #(#fused)*
+            #in_lanes
             #offered_methods
             #bindings
         };

@@ -28,8 +28,9 @@ use super::model::{Degrees, Home, Part, System};
 use super::rules::Points;
 use super::structure::{self, Differentiated, Findings, Structure, Terms};
 use super::write::item::{are_plain, as_written};
-use super::write::{self, EngineFunctions, Kernel, view};
+use super::write::{self, EngineFunctions, Kernel, LaneFunctions, view};
 use body::{Shape, matrix, of_segment, parameter, unused};
+use in_lanes::LinesInLanes;
 pub use stages::CONDITIONAL;
 use stages::StagesWritten;
 
@@ -68,12 +69,12 @@ impl WrittenOut {
 
     /// Whether explicit steps of several members at once are written.
     pub fn has_explicit_lanes(&self) -> bool {
-        self.functions.kernels.iter().flatten().any(|kernel| kernel.explicit_in_lanes.is_some())
+        self.functions.in_lanes.as_ref().is_some_and(|of| of.explicit.is_some())
     }
 
     /// Whether midpoint steps of several members at once are written.
     pub fn has_midpoint_lanes(&self) -> bool {
-        self.functions.kernels.iter().flatten().any(|kernel| kernel.in_lanes.is_some())
+        self.functions.in_lanes.as_ref().is_some_and(|of| of.midpoint.is_some())
     }
 
     /// Why Gauss steps of several members at once are not written, if they are not.
@@ -113,6 +114,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         heaviest,
         is_portable,
         calls_elementary: false,
+        in_lanes: LinesInLanes::default(),
     };
     let force = force.as_deref();
     let of_lagrangian = code.function(Part::Lagrangian, "l", lagrangian)?;
@@ -126,7 +128,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
     let by_parameters = code.all_by_parameters(lagrangian, rayleigh, force)?;
     let second_order = code.all_along(lagrangian, rayleigh, force)?;
     let findings = code.findings(lagrangian, rayleigh, force);
-    let StagesWritten { function: stages, in_lanes: stages_in_lanes, lacks: lacks_stages } =
+    let StagesWritten { function: stages, lacks: lacks_stages } =
         system.rules.gauss.then(|| code.stages(lagrangian, rayleigh, force)).transpose()?.unwrap_or_default();
     let mut kernels = Vec::new();
     for newton in &findings.newton {
@@ -141,9 +143,8 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         .then(|| code.cancelling_terms(lagrangian, rayleigh, force))
         .flatten();
     let places = code.places(lagrangian, rayleigh, force);
-    let in_lanes =
-        kernels.iter().flatten().flat_map(|kernel| [&kernel.explicit_in_lanes, &kernel.in_lanes]).flatten();
-    let names = names_of_lanes(stages.iter().chain(&stages_in_lanes).chain(in_lanes));
+    let in_lanes = code.lane_functions();
+    let names = names_of_lanes(stages.iter().chain(in_lanes.iter().flat_map(LaneFunctions::all)));
     let functions = EngineFunctions {
         structure: Structure { engine: structure::Engine::Expanded, findings: Some(findings) },
         lagrangian: of_lagrangian,
@@ -154,8 +155,8 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         cancelling_terms,
         places,
         stages,
-        stages_in_lanes,
         kernels,
+        in_lanes,
         by_parameters,
         second_order,
         names,
@@ -195,6 +196,7 @@ struct Code<'s> {
     is_portable: bool,
     /// Whether any function written calls one of the runtime's elementary functions.
     calls_elementary: bool,
+    in_lanes: LinesInLanes,
 }
 
 impl Code<'_> {

@@ -2,8 +2,8 @@
 
 use core::marker::PhantomData;
 
-use dalembert::run::{Discretise, DrivenTrajectory, FlowInLanes, Stop};
-use dalembert::step::{Flow, Linearizable, Memory, Step};
+use dalembert::run::{Discretise, DrivenTrajectory, Stop};
+use dalembert::step::{Flow, FlowInLanes, Linearizable, Memory, Step};
 use dalembert::tolerance::{OffersMethods, ToleranceError};
 use dalembert::{State, StepError};
 use dalembert_ensemble::{OneByOne, Plan, SideBySide, ToError};

@@ -5,7 +5,8 @@
 use std::fmt::Debug;
 
 use dalembert::nalgebra::vector;
-use dalembert::run::{FlowInLanes, LaneRuns};
+use dalembert::run::LaneRuns;
+use dalembert::step::FlowInLanes;
 use dalembert::{Discretise, Gauss, State, rayleigh_system};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};

@@ -2,7 +2,8 @@
 //! however many lanes, at once or in parts; and a member that fails has none.
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
-use dalembert::run::{FlowInLanes, LaneRuns};
+use dalembert::run::LaneRuns;
+use dalembert::step::FlowInLanes;
 use dalembert::{Composition, Discretise, Splitting, State, StepError, Trapezoidal, rayleigh_system};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};

@@ -3,8 +3,9 @@
 //! their way to infinity, members that fail.
 
 use dalembert::nalgebra::vector;
-use dalembert::run::{FlowInLanes, LaneRuns};
-use dalembert::step::DiscreteInLanes;
+use dalembert::run::LaneRuns;
+
+use dalembert::step::{DiscreteInLanes, FlowInLanes};
 use dalembert::{Discretise, Midpoint, State, rayleigh_system};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};

@@ -3,7 +3,8 @@
 //! that of its own run, whatever the number of lanes and whatever runs beside it.
 
 use dalembert::nalgebra::vector;
-use dalembert::run::{FlowInLanes, LaneRuns};
+use dalembert::run::LaneRuns;
+use dalembert::step::FlowInLanes;
 use dalembert::{Composition, Discretise, Gauss, Lagrangian, Splitting, State, Trapezoidal, rayleigh_system};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};

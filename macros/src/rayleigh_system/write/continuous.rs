@@ -268,13 +268,8 @@ pub fn acting_force(system: &System<'_>, cancelling_terms: Option<TokenStream>) 
 }
 
 /// `impl ForcedLagrangian<2> for Ring`. The equations of motion at the stages are those that the runtime
-/// makes of L and the acting force, unless an engine gives them. `impl ForcedLagrangianInLanes<2> for Ring`,
-/// where it is asked for.
-pub fn forced_lagrangian(
-    system: &System<'_>,
-    stages: Option<TokenStream>,
-    in_lanes: Option<TokenStream>,
-) -> TokenStream {
+/// makes of L and the acting force, unless an engine gives them.
+pub fn forced_lagrangian(system: &System<'_>, stages: Option<TokenStream>) -> TokenStream {
     let n = system.degrees.times(1);
     let subject = subject(system, system.home());
     let stages = stages.unwrap_or_else(|| {
@@ -282,20 +277,10 @@ pub fn forced_lagrangian(
             type Anchors<const S: usize> = ();
         )
     });
-    let in_lanes = in_lanes.map(|functions| {
-        quote! {
-            #[automatically_derived]
-            impl ::dalembert::generated::ForcedLagrangianInLanes<#n> for #subject {
-                #functions
-            }
-        }
-    });
     quote! {
         #[automatically_derived]
         impl ForcedLagrangian<#n> for #subject {
             #stages
         }
-
-        #in_lanes
     }
 }

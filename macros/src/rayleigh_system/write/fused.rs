@@ -20,10 +20,6 @@ pub struct Kernel {
     pub memory: Memory,
     /// The functions of an explicit step.
     pub explicit: Option<TokenStream>,
-    /// The functions of an explicit step of several members at once.
-    pub explicit_in_lanes: Option<TokenStream>,
-    /// The equation of several members at once.
-    pub in_lanes: Option<TokenStream>,
 }
 
 /// The memory of a run.
@@ -50,7 +46,7 @@ pub fn fused(
     let n = system.degrees.times(1);
     let subject = subject(system, system.home());
     let name = rule.ident();
-    let Kernel { step_kernel, momenta, diagonals, is_linear, memory, explicit, explicit_in_lanes, in_lanes } =
+    let Kernel { step_kernel, momenta, diagonals, is_linear, memory, explicit } =
         kernel.unwrap_or_else(|| of_terms(system, rule));
     let [inline_kernel, inline_momenta] = [&step_kernel, &momenta].map(inlined);
     let (matrix, kernel) = match diagonals {
@@ -86,24 +82,6 @@ pub fn fused(
             }
         }
     });
-    // impl ExplicitInLanes<2> for Ring
-    let explicit_in_lanes = explicit_in_lanes.map(|functions| {
-        quote! {
-            #[automatically_derived]
-            impl ::dalembert::generated::ExplicitInLanes<#n> for #subject {
-                #functions
-            }
-        }
-    });
-    // impl DiscreteInLanes<Midpoint, 2> for Ring
-    let in_lanes = in_lanes.map(|functions| {
-        quote! {
-            #[automatically_derived]
-            impl ::dalembert::generated::DiscreteInLanes<#name, #n> for #subject {
-                #functions
-            }
-        }
-    });
     let written_out = (is_expanded && rule.joint().is_none()).then(|| {
         quote!(
             const WRITTEN_OUT: bool = true;
@@ -132,11 +110,7 @@ pub fn fused(
             #cancelling_terms
         }
 
-        #in_lanes
-
         #explicit
-
-        #explicit_in_lanes
     }
 }
 
@@ -170,8 +144,6 @@ fn of_terms(system: &System<'_>, rule: Rule) -> Kernel {
         is_linear: joint.is_some_and(|joint| joint.is_linear),
         memory: joint.map_or(Memory::Velocities, |joint| Memory::OfRule(joint.memory)),
         explicit: None,
-        explicit_in_lanes: None,
-        in_lanes: None,
     }
 }
 

@@ -1,17 +1,13 @@
 //! An explicit step by the trapezoidal rule, in three functions: the matrix, what v̄ adds to the momenta, and
 //! the force.
 
-use super::in_lanes::{ExplicitOutputs, TAKEN};
+use super::in_lanes::TAKEN;
 use super::kernel::Parts;
 use super::*;
 
 impl Code<'_> {
-    /// The functions of `Explicit`, and those of `ExplicitInLanes` where they are asked for.
-    pub(super) fn explicit(
-        &mut self,
-        parts: &Parts,
-        diagonals: Option<usize>,
-    ) -> Written<(TokenStream, Option<TokenStream>)> {
+    /// The functions of `Explicit`, and the lines of those of `ExplicitInLanes` where they are asked for.
+    pub(super) fn explicit(&mut self, parts: &Parts, diagonals: Option<usize>) -> Written<TokenStream> {
         let scalar = &self.system.scalar;
         let n = self.system.degrees.times(1);
         let half = self.graph.half_step();
@@ -63,14 +59,14 @@ impl Code<'_> {
         };
 
         let force = self.shortened(&force)?;
-        let (p0, p1) = momenta.split_at(self.n);
-        let outputs = ExplicitOutputs { force: &force, p0, p1 };
-        let in_lanes = is_in_lanes.then(|| self.explicit_in_lanes(&outputs)).flatten();
+        if is_in_lanes {
+            self.in_lanes.explicit = self.explicit_lines(&momenta, &force);
+        }
         let line = self.members_code(&force, &TAKEN, is_in_lanes);
         let [force] = self.parts(&line.outputs, [Shape::Vector]);
         let (q, statements) = (parameter("q", line.uses_coordinates), &line.statements);
         let time = line.uses("t").then(|| quote!(let t = self.t;));
-        let functions = quote! {
+        Ok(quote! {
             #step_matrix
 
             #velocity_momenta
@@ -81,7 +77,6 @@ impl Code<'_> {
                 #statements
                 #force
             }
-        };
-        Ok((functions, in_lanes))
+        })
     }
 }

@@ -13,8 +13,19 @@ use quote::ToTokens;
 use super::super::emit::{Anchored, Field, number_of_members};
 use super::super::syntax::with_words;
 use super::*;
-pub(super) use explicit::{ExplicitOutputs, TAKEN};
-pub(super) use midpoint::{MidpointOutputs, TAKEN_AT_MIDPOINT};
+use explicit::ExplicitLines;
+pub(super) use explicit::TAKEN;
+use midpoint::MidpointLines;
+pub(super) use midpoint::TAKEN_AT_MIDPOINT;
+use stages::StageLines;
+
+/// The code on members, as long as it is not known which fields all of it reads.
+#[derive(Default)]
+pub(super) struct LinesInLanes {
+    pub(super) explicit: Option<ExplicitLines>,
+    pub(super) midpoint: Option<MidpointLines>,
+    pub(super) stages: Option<StageLines>,
+}
 
 /// Numbers and truth values of members, in one value that functions hand on:
 /// `([Members<f64, W>; 3], [Mask<W>; 1])`.
@@ -27,8 +38,9 @@ struct OfMembers {
 }
 
 impl OfMembers {
-    fn new(code: &Code<'_>, fields: impl IntoIterator<Item = (Node, bool)>) -> Self {
-        let mut all: Vec<(Node, bool)> = fields.into_iter().collect();
+    fn new<'f>(code: &Code<'_>, fields: impl IntoIterator<Item = &'f Field>) -> Self {
+        let fields = fields.into_iter().map(|field| (field.node, field.is_truth));
+        let mut all: Vec<(Node, bool)> = fields.collect();
         all.sort_unstable();
         all.dedup();
         let of =
@@ -39,12 +51,6 @@ impl OfMembers {
             numbers: of(false).collect(),
             truths: of(true).collect(),
         }
-    }
-
-    /// The fields of several lines: all that they have from before they run.
-    fn fields_of<'l>(code: &Code<'_>, lines: impl IntoIterator<Item = &'l StraightLine>) -> Self {
-        let fields = lines.into_iter().flat_map(|line| &line.fields);
-        Self::new(code, fields.map(|field| (field.node, field.is_truth)))
     }
 
     fn is_empty(&self) -> bool {
@@ -142,6 +148,22 @@ impl Code<'_> {
         let line = self.writing(&taken).numbers_as_members(outputs);
         self.calls_elementary |= line.calls_elementary;
         self.seen(self.system.home(), line)
+    }
+
+    /// The functions of several members at once, as far as they are asked for; the fields that any of them
+    /// reads are gathered once.
+    pub(super) fn lane_functions(&mut self) -> Option<LaneFunctions> {
+        let LinesInLanes { explicit, midpoint, stages } = core::mem::take(&mut self.in_lanes);
+        let lines = explicit.iter().flat_map(ExplicitLines::fields);
+        let lines = lines.chain(midpoint.iter().flat_map(MidpointLines::fields));
+        let fields = OfMembers::new(self, lines.chain(stages.iter().flat_map(StageLines::fields)));
+        let is_any = explicit.is_some() || midpoint.is_some() || stages.is_some();
+        is_any.then(|| LaneFunctions {
+            gathered: self.gathered(&fields),
+            explicit: explicit.map(|lines| lines.written(self, &fields)),
+            midpoint: midpoint.map(|lines| lines.written(self, &fields)),
+            stages: stages.map(|lines| lines.written(self, &fields)),
+        })
     }
 
     /// `type Fields` and the function that fills it; where there is a time, with the present one beside what

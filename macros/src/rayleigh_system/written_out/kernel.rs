@@ -2,7 +2,7 @@
 //! in the form that the structure of its matrix allows.
 
 use super::super::write::Memory;
-use super::in_lanes::{MidpointOutputs, TAKEN_AT_MIDPOINT};
+use super::in_lanes::TAKEN_AT_MIDPOINT;
 use super::structure::Newton;
 use super::*;
 
@@ -67,25 +67,16 @@ impl Code<'_> {
         let [p0, p1] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
         let momenta = framed(self, &line, quote!(Momenta { p0: #p0, p1: #p1 }));
 
-        let outputs = MidpointOutputs { kernel: &kernel, momenta: &both, diagonals };
-        let in_lanes = is_in_lanes.then(|| self.midpoint_in_lanes(&outputs)).flatten();
-        let (explicit, explicit_in_lanes) =
-            newton.is_explicit.then(|| self.explicit(&parts, diagonals)).transpose()?.unzip();
+        if is_in_lanes {
+            self.in_lanes.midpoint = self.midpoint_lines(&kernel, &both, diagonals);
+        }
+        let explicit = newton.is_explicit.then(|| self.explicit(&parts, diagonals)).transpose()?;
         let memory = match () {
             () if newton.is_explicit => Memory::Explicit,
             () if newton.constant || self.n >= KEPT_FROM => Memory::Matrix,
             () => Memory::Velocities,
         };
-        Ok(Kernel {
-            step_kernel,
-            momenta,
-            diagonals,
-            is_linear: newton.constant,
-            memory,
-            explicit,
-            explicit_in_lanes: explicit_in_lanes.flatten(),
-            in_lanes,
-        })
+        Ok(Kernel { step_kernel, momenta, diagonals, is_linear: newton.constant, memory, explicit })
     }
 
     /// The code of a matrix, given column by column, in the form that its diagonals allow.

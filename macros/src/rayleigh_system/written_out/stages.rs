@@ -20,7 +20,6 @@ use super::*;
 #[derive(Default)]
 pub(super) struct StagesWritten {
     pub(super) function: Option<TokenStream>,
-    pub(super) in_lanes: Option<TokenStream>,
     /// Why they are not written, if they were to be.
     pub(super) lacks: Option<&'static str>,
 }
@@ -111,8 +110,9 @@ impl Code<'_> {
         }
         let reciprocals = self.of_corrections_alone(&outputs);
         let anchored = Anchored(&reciprocals);
-        let in_lanes =
-            self.system.lanes.gauss.as_ref().map(|_| self.stages_in_lanes(&outputs, &late, anchored));
+        if self.system.lanes.gauss.is_some() {
+            self.in_lanes.stages = Some(self.stage_lines(&outputs, &late, anchored));
+        }
         let mut taken = vec!["q", "v", "p", "rate", "momenta", "anchors", "angles", "reciprocals"];
         if self.system.home() == Home::View {
             taken.extend(["u", "t", "elapsed"]);
@@ -164,7 +164,7 @@ impl Code<'_> {
                 Stages { rate, residual: [#(#residuals),*], correction: [#(#corrections),*] }
             }
         };
-        Ok(StagesWritten { function: Some(function), in_lanes, lacks: None })
+        Ok(StagesWritten { function: Some(function), lacks: None })
     }
 
     /// G = ∂L/∂q − ∂R/∂v + f.

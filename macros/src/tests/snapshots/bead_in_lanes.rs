@@ -251,7 +251,7 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl ::dalembert::generated::ExplicitInLanes<1> for Bead {
+    impl ::dalembert::generated::Gathered<1> for Bead {
         type Fields<const W: usize> = ([Members<f64, W>; 5], [Mask<W>; 1]);
         fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W> {
             (
@@ -266,6 +266,9 @@ const _: () = {
                 Mask::of_each(systems.map(|system| [system.has_wall])),
             )
         }
+    }
+    #[automatically_derived]
+    impl ::dalembert::generated::ExplicitInLanes<1> for Bead {
         #[inline(always)]
         fn velocity_momenta_in_lanes<const W: usize>(
             fields: &Self::Fields<W>,

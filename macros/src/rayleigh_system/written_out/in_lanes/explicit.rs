@@ -2,38 +2,48 @@
 
 use super::*;
 
-/// The outputs that `ExplicitInLanes` asks for, as `Explicit` computes them.
-pub(in super::super) struct ExplicitOutputs<'o> {
-    pub force: &'o [Node],
-    pub p0: &'o [Node],
-    pub p1: &'o [Node],
+/// The outputs that `ExplicitInLanes` asks for.
+pub(in super::super) struct ExplicitLines {
+    /// p0 and p1.
+    momenta: StraightLine,
+    force: StraightLine,
 }
 
 impl Code<'_> {
-    /// The functions of `ExplicitInLanes`; nothing where a field is read within a condition, since fields are
-    /// read before.
-    pub(in super::super) fn explicit_in_lanes(
+    /// Code for outputs as `Explicit` computes them, p0 and p1 in `momenta`; nothing where a field is read
+    /// within a condition, since fields are read before.
+    pub(in super::super) fn explicit_lines(
         &mut self,
-        outputs: &ExplicitOutputs<'_>,
-    ) -> Option<TokenStream> {
-        let ExplicitOutputs { force, p0, p1 } = outputs;
-        let momenta = [*p0, *p1].concat();
-        if self.graph.is_conditional(force.iter().chain(&momenta).copied()) {
+        momenta: &[Node],
+        force: &[Node],
+    ) -> Option<ExplicitLines> {
+        if self.graph.is_conditional(force.iter().chain(momenta).copied()) {
             return None;
         }
         let force = self.on_members(force, &TAKEN, &[], None);
-        let momenta = self.on_members(&momenta, &TAKEN, &[], None);
-        let fields = OfMembers::fields_of(self, [&force, &momenta]);
-        let is_timed = self.system.timed.any();
-        let gathered = self.gathered(&fields);
-        let (scalar, n, members) = (&self.system.scalar, self.system.degrees.times(1), &fields.members);
+        let momenta = self.on_members(momenta, &TAKEN, &[], None);
+        Some(ExplicitLines { momenta, force })
+    }
+}
 
-        let (apart, statements) = (fields.read_by(&momenta, is_timed, "t"), &momenta.statements);
+impl ExplicitLines {
+    /// The fields that the code reads.
+    pub(super) fn fields(&self) -> impl Iterator<Item = &Field> {
+        self.momenta.fields.iter().chain(&self.force.fields)
+    }
+
+    /// The functions of `ExplicitInLanes`.
+    pub(super) fn written(&self, code: &Code<'_>, fields: &OfMembers) -> TokenStream {
+        let Self { momenta, force } = self;
+        let is_timed = code.system.timed.any();
+        let (scalar, n, members) = (&code.system.scalar, code.system.degrees.times(1), &fields.members);
+
+        let (apart, statements) = (fields.read_by(momenta, is_timed, "t"), &momenta.statements);
         let half = momenta.uses("half").then(|| quote!(let half = 0.5 * h;));
         let of_fields = parameter("fields", apart.is_some());
         let (v, h) =
             (parameter("v", momenta.uses_velocities), parameter("h", half.is_some() || momenta.uses("h")));
-        let (p0, p1) = momenta.outputs.split_at(self.n);
+        let (p0, p1) = momenta.outputs.split_at(code.n);
         let velocity_momenta = quote! {
             #[inline(always)]
             fn velocity_momenta_in_lanes<const #members: usize>(
@@ -48,12 +58,10 @@ impl Code<'_> {
             }
         };
 
-        let (apart, statements) = (fields.read_by(&force, is_timed, "t"), &force.statements);
+        let (apart, statements) = (fields.read_by(force, is_timed, "t"), &force.statements);
         let of_fields = parameter("fields", apart.is_some());
         let (q, outputs) = (parameter("q", force.uses_coordinates), &force.outputs);
-        Some(quote! {
-            #gathered
-
+        quote! {
             #velocity_momenta
 
             #[inline(always)]
@@ -65,7 +73,7 @@ impl Code<'_> {
                 #statements
                 [#(#outputs),*]
             }
-        })
+        }
     }
 }
 
