@@ -7,7 +7,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 
-use crate::numbers::members::{coordinate_by_coordinate, each_coordinate, member, write_member};
+use crate::numbers::members::{coordinate_by_coordinate, each_coordinate, each_member, member, write_member};
 use crate::numbers::{Mask, MatricesOfMembers, MemberVector, Members, Scalar};
 use crate::rules::Midpoint;
 use crate::run::memory::in_lanes::{by_kept_matrices, by_linear_matrices};
@@ -53,7 +53,11 @@ impl<T: Scalar, M, A, const N: usize, const W: usize> MemoriesInLanes<T, M, A, N
     /// Members that take their next step so.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn those(&self, next: Next) -> Mask<W> {
-        Mask(self.next.map(|own| own == next))
+        let mut those = Mask::splat(false);
+        each_member!(i => {
+            those.0[i] = self.next[i] == next;
+        });
+        those
     }
 
     /// [`VelocityHistory::extrapolation`] of each that has a velocity.
@@ -77,22 +81,6 @@ impl<T: Scalar, M, A, const N: usize, const W: usize> MemoriesInLanes<T, M, A, N
         }
         guess
     }
-
-    /// Takes in the mean velocities of the members that have stepped.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn follow(&mut self, has_stepped: Mask<W>, v: &MemberVector<T, N, W>) {
-        coordinate_by_coordinate!(a => {
-            for age in (1..4).rev() {
-                self.velocities[age][a] =
-                    Members::select(has_stepped, self.velocities[age - 1][a], self.velocities[age][a]);
-            }
-            self.velocities[0][a] = Members::select(has_stepped, v[a], self.velocities[0][a]);
-        });
-        for lane in 0..W {
-            let known = (self.known[lane] + usize::from(has_stepped.0[lane])).min(4);
-            self.known[lane] = known;
-        }
-    }
 }
 
 impl<L: DiscreteInLanes<Midpoint, N>, const N: usize, const W: usize> LaneRuns<'_, L, Midpoint, N, W> {
@@ -106,22 +94,24 @@ impl<L: DiscreteInLanes<Midpoint, N>, const N: usize, const W: usize> LaneRuns<'
             p[a] = p[a] + (roots.momenta[1][a] - roots.momenta[0][a]);
             has_stepped = has_stepped & q[a].is_finite() & p[a].is_finite();
         });
+        let MemoriesInLanes { velocities, known, .. } = &mut self.kept;
         coordinate_by_coordinate!(a => {
             self.q.value[a] = Members::select(has_stepped, q[a], self.q.value[a]);
             self.p.value[a] = Members::select(has_stepped, p[a], self.p.value[a]);
+            for age in (1..4).rev() {
+                velocities[age][a] = Members::select(has_stepped, velocities[age - 1][a], velocities[age][a]);
+            }
+            velocities[0][a] = Members::select(has_stepped, roots.v[a], velocities[0][a]);
         });
-        self.kept.follow(has_stepped, &roots.v);
+        for lane in 0..W {
+            known[lane] = (known[lane] + usize::from(has_stepped.0[lane])).min(4);
+        }
         has_stepped
     }
 
-    /// Takes in the step that a member has taken with others from q = `before`, the time `elapsed` after its
-    /// start, in so many corrections.
-    fn remember(
-        &mut self,
-        lane: usize,
-        (before, corrections): (&MemberVector<L::Scalar, N, W>, u32),
-        elapsed: L::Scalar,
-    ) {
+    /// Takes in the step that a member has taken with others, so many steps into the call, from q = `before`
+    /// and in so many corrections.
+    fn remember(&mut self, lane: usize, step: u64, before: &MemberVector<L::Scalar, N, W>, corrections: u32) {
         let (system, memory) = (self.systems[lane], &mut self.kept.memories[lane]);
         let is_another = match self.kept.next[lane] {
             Next::ByNewton => {
@@ -130,6 +120,7 @@ impl<L: DiscreteInLanes<Midpoint, N>, const N: usize, const W: usize> LaneRuns<'
             }
             Next::ByMatrix => {
                 let state = State { q: member(before, lane), p: member(&self.p.value, lane) };
+                let elapsed = self.clocks.elapsed(step, self.h).0[lane];
                 let step = (member(&self.kept.velocities[0], lane), self.h);
                 system.later(elapsed, |system| memory.has_served(system, &state, step, corrections))
             }
@@ -207,10 +198,9 @@ impl<L: DiscreteInLanes<Midpoint, N>, const N: usize> FlowInLanes<Midpoint, N> f
                 has_stepped = has_stepped | runs.follow(&roots);
             }
             if L::Memory::KEEPS {
-                let times = runs.clocks.elapsed(step, runs.h);
                 for lane in 0..W {
                     if has_stepped.0[lane] {
-                        runs.remember(lane, (&before, corrections[lane]), times.0[lane]);
+                        runs.remember(lane, step, &before, corrections[lane]);
                     }
                 }
             }
