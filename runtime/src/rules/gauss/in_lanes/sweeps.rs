@@ -1,7 +1,7 @@
 //! The sweeps over the stages of several members.
 
 use super::allowances::Allowances;
-use super::floors::{Floors, Terms};
+use super::floors::{Floors, Terms, Verdict};
 use super::seen::Seen;
 use crate::numbers::members::{coordinate_by_coordinate, each_stage, stage_by_stage};
 use crate::numbers::{Blank, CompensatedMembers, Mask, MemberVector, Members, Scalar};
@@ -172,10 +172,11 @@ impl<L: ForcedLagrangianInLanes<N>, const N: usize, const S: usize, const W: usi
             let (mut is_done, mut is_moved) = (Mask::splat(false), is_loose);
             if some_to_rounding {
                 let terms = Terms { h: self.h, p: &self.p.value, rate };
-                let open = (&mut is_open, !is_loose);
                 let mass_is_constant = L::STRUCTURE.constant_mass_matrix;
-                let [done, is_at_rest] = floors.solved(iterations, open, &seen, &terms, mass_is_constant);
-                (is_done, is_moved) = (done, is_moved | is_at_rest);
+                let Verdict { is_solved, is_at_rest, is_open: may_be } =
+                    floors.judge(iterations, is_open & !is_loose, &seen, &terms, mass_is_constant);
+                (is_done, is_moved) = (is_solved, is_moved | is_at_rest);
+                is_open = (is_open & is_loose) | may_be;
             }
             if some_loose {
                 is_done = is_done | allowances.solved(iterations, &mut is_open, &seen);
