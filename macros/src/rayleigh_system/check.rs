@@ -88,7 +88,7 @@ fn block<'a>(source: &'a Source, options: &Options, report: &mut Report) -> Opti
         parameters: options.parameters.clone(),
         second: options.second,
         lanes: options.lanes.clone(),
-        is_fused: options.fused.is_some(),
+        fused: options.fused.clone(),
     })
 }
 
@@ -214,6 +214,6 @@ fn function_system<'a>(
         parameters: options.parameters.clone(),
         second: options.second,
         lanes: options.lanes.clone(),
-        is_fused: options.fused.is_some(),
+        fused: options.fused.clone(),
     }
 }

@@ -41,7 +41,7 @@ pub fn engine(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Dec
 /// Whether derivatives by parameters are asked for, code on lanes or fused sums: dual numbers have none of
 /// them.
 fn asks_for_code(system: &System<'_>) -> bool {
-    !system.parameters.is_empty() || system.lanes.words().next().is_some() || system.is_fused
+    !system.parameters.is_empty() || system.lanes.words().next().is_some() || system.fused.is_some()
 }
 
 /// `derivatives = auto`: written out where they can be.

@@ -122,8 +122,8 @@ pub struct System<'a> {
     pub second: bool,
     /// Which steps of several members at once are asked for.
     pub lanes: Lanes,
-    /// Whether a product and the sum that it stands in are rounded once.
-    pub is_fused: bool,
+    /// Whether a product and the sum that it stands in are rounded once, by its word.
+    pub fused: Option<Ident>,
 }
 
 /// The steps of several members at once that are asked for, each by its word.

@@ -192,7 +192,7 @@ pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>)
         constant_mass_matrix: degrees.in_velocity(lagrangian.root) <= 2 && is_constant(&mass),
         quadratic_lagrangian: degrees.joint(lagrangian.root) <= 2,
         separable_lagrangian: degrees.is_separable(lagrangian.root),
-        fused: system.is_fused,
+        fused: system.fused.is_some(),
         timed_momenta,
         damping,
         cyclic: cyclic.collect(),

@@ -6,6 +6,7 @@ mod fused;
 mod imports;
 mod in_lanes;
 pub mod item;
+pub mod notice;
 mod on_request;
 pub mod view;
 

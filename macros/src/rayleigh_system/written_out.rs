@@ -41,8 +41,11 @@ pub fn system(system: &System<'_>, written: WrittenOut, is_portable: bool) -> To
     let item = as_written(system, &written.run, is_portable);
     let (view, description) = (view::definition(system), view::description(system));
     let implementation = write::system(system, written.functions);
+    let warning = write::notice::fused_by_calls(system);
     quote! {
         #item
+
+        #warning
 
         #view
 

@@ -141,7 +141,8 @@ impl Code<'_> {
             (format_ident!("stages"), " G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages.", None)
         };
         let lanes = quote!(Lanes<#scalar, #stages>);
-        let Anchors { ty, parameter: anchors, apart } = Anchors::new(&line, &lanes, self.system.is_fused);
+        let Anchors { ty, parameter: anchors, apart } =
+            Anchors::new(&line, &lanes, self.system.fused.is_some());
         let inline = inlined_on_lanes(&quote!(#statements #later));
         let function = quote! {
             type Anchors<const #stages: usize> = #ty;

@@ -87,7 +87,7 @@ impl StageLines {
         let of_fields = parameter("fields", apart.is_some());
         let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
         let (statements, kept_ty) = (&line.statements, kept.ty());
-        let anchors = Anchors::new(line, &quote!(Members<#scalar, #members>), code.system.is_fused);
+        let anchors = Anchors::new(line, &quote!(Members<#scalar, #members>), code.system.fused.is_some());
         let (anchors_ty, of_anchors, anchors_apart) = (&anchors.ty, &anchors.parameter, &anchors.apart);
         let rates = quote! {
             #[inline(always)]
