@@ -7,7 +7,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 
-use crate::numbers::members::{coordinate_by_coordinate, each_coordinate, each_member, member, write_member};
+use crate::numbers::members::{coordinate_by_coordinate, each_coordinate, member, write_member};
 use crate::numbers::{Mask, MatricesOfMembers, MemberVector, Members, Scalar};
 use crate::rules::Midpoint;
 use crate::run::memory::in_lanes::{by_kept_matrices, by_linear_matrices};
@@ -17,21 +17,12 @@ use crate::step::{
 };
 use crate::system::Lagrangian;
 
-/// How a member takes its next step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Next {
-    /// By its own run.
-    Alone,
-    /// With others by Newton's method.
-    ByNewton,
-    /// With others, each by the matrix that it keeps.
-    ByMatrix,
-}
-
 /// Values kept of W members on their way by steps that are solved for v̄.
 #[derive(Clone, Copy, Debug)]
 pub struct MemoriesInLanes<T, M, A, const N: usize, const W: usize> {
-    next: [Next; W],
+    /// Members that take the next step by Newton's method, and by the matrix kept; the others take it alone.
+    is_by_newton: Mask<W>,
+    is_by_matrix: Mask<W>,
     /// The latest mean velocities, newest first, and how many of them are known.
     velocities: [MemberVector<T, N, W>; 4],
     known: [usize; W],
@@ -50,16 +41,6 @@ type Of<L, const N: usize, const W: usize> = MemoriesInLanes<
 >;
 
 impl<T: Scalar, M, A, const N: usize, const W: usize> MemoriesInLanes<T, M, A, N, W> {
-    /// Members that take their next step so.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn those(&self, next: Next) -> Mask<W> {
-        let mut those = Mask::splat(false);
-        each_member!(i => {
-            those.0[i] = self.next[i] == next;
-        });
-        those
-    }
-
     /// [`VelocityHistory::extrapolation`] of each that has a velocity.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn extrapolation(&self) -> MemberVector<T, N, W> {
@@ -109,40 +90,49 @@ impl<L: DiscreteInLanes<Midpoint, N>, const N: usize, const W: usize> LaneRuns<'
         has_stepped
     }
 
-    /// Takes in the step that a member has taken with others, so many steps into the call, from q = `before`
-    /// and in so many corrections.
-    fn remember(&mut self, lane: usize, step: u64, before: &MemberVector<L::Scalar, N, W>, corrections: u32) {
-        let (system, memory) = (self.systems[lane], &mut self.kept.memories[lane]);
-        let is_another = match self.kept.next[lane] {
-            Next::ByNewton => {
-                memory.has_paused();
-                !memory.is_by_newton()
+    /// Takes in steps by Newton's method.
+    fn pause(&mut self, has_stepped: Mask<W>) {
+        for lane in (0..W).filter(|&lane| has_stepped.0[lane]) {
+            let memory = &mut self.kept.memories[lane];
+            memory.has_paused();
+            if !memory.is_by_newton() {
+                self.look_ahead(lane);
             }
-            Next::ByMatrix => {
-                let state = State { q: member(before, lane), p: member(&self.p.value, lane) };
-                let elapsed = self.clocks.elapsed(step, self.h).0[lane];
-                let step = (member(&self.kept.velocities[0], lane), self.h);
-                system.later(elapsed, |system| memory.has_served(system, &state, step, corrections))
+        }
+    }
+
+    /// Takes in steps by the matrices kept, so many steps into the call, from q = `before` and each in so many
+    /// corrections.
+    fn serve(
+        &mut self,
+        has_stepped: Mask<W>,
+        steps: u64,
+        before: &MemberVector<L::Scalar, N, W>,
+        corrections: &[u32; W],
+    ) {
+        let elapsed = self.clocks.elapsed(steps, self.h);
+        for lane in (0..W).filter(|&lane| has_stepped.0[lane]) {
+            let (system, memory) = (self.systems[lane], &mut self.kept.memories[lane]);
+            let state = State { q: member(before, lane), p: member(&self.p.value, lane) };
+            let step = (member(&self.kept.velocities[0], lane), self.h);
+            let is_another = system
+                .later(elapsed.0[lane], |system| memory.has_served(system, &state, step, corrections[lane]));
+            if is_another {
+                self.look_ahead(lane);
             }
-            Next::Alone => false,
-        };
-        if is_another {
-            self.look_ahead(lane);
         }
     }
 
     /// Decides how the next step of a member is taken.
     fn look_ahead(&mut self, lane: usize) {
-        let MemoriesInLanes { next, memories, matrices, .. } = &mut self.kept;
+        let MemoriesInLanes { is_by_newton, is_by_matrix, memories, matrices, .. } = &mut self.kept;
         let memory = &memories[lane];
-        next[lane] = if let Some((matrix, factored)) = memory.kept(self.h) {
+        is_by_newton.0[lane] = memory.is_by_newton();
+        is_by_matrix.0[lane] = false;
+        if let Some((matrix, factored)) = memory.kept(self.h) {
+            is_by_matrix.0[lane] = true;
             matrices.write(lane, matrix, factored);
-            Next::ByMatrix
-        } else if memory.is_by_newton() {
-            Next::ByNewton
-        } else {
-            Next::Alone
-        };
+        }
     }
 }
 
@@ -154,7 +144,8 @@ impl<L: DiscreteInLanes<Midpoint, N>, const N: usize> FlowInLanes<Midpoint, N> f
 
     fn kept<const W: usize>(_h: L::Scalar) -> Self::Kept<W> {
         MemoriesInLanes {
-            next: [Next::Alone; W],
+            is_by_newton: Mask::splat(false),
+            is_by_matrix: Mask::splat(false),
             velocities: [[Members::splat(nalgebra::zero()); N]; 4],
             known: [0; W],
             memories: [L::Memory::default(); W],
@@ -163,7 +154,8 @@ impl<L: DiscreteInLanes<Midpoint, N>, const N: usize> FlowInLanes<Midpoint, N> f
     }
 
     fn put<const W: usize>(runs: &mut LaneRuns<'_, L, Midpoint, N, W>, lane: usize) -> bool {
-        runs.kept.next[lane] = Next::Alone;
+        runs.kept.is_by_newton.0[lane] = false;
+        runs.kept.is_by_matrix.0[lane] = false;
         runs.kept.known[lane] = 0;
         runs.kept.memories[lane] = L::Memory::default();
         true
@@ -177,34 +169,31 @@ impl<L: DiscreteInLanes<Midpoint, N>, const N: usize> FlowInLanes<Midpoint, N> f
                 fields = L::later_in_lanes(&fields, &runs.clocks.elapsed(step, runs.h));
             }
             let guess = runs.kept.extrapolation();
-            let by_newton = runs.is_sound & runs.kept.those(Next::ByNewton);
-            let by_matrix = runs.is_sound & runs.kept.those(Next::ByMatrix);
-            let before = runs.q.value;
-            let (mut has_stepped, mut corrections) = (Mask::splat(false), [0; W]);
+            let mut is_alone = runs.is_sound;
+            let by_newton = runs.is_sound & runs.kept.is_by_newton;
+            let by_matrix = runs.is_sound & runs.kept.is_by_matrix;
             if by_newton.0.contains(&true) {
                 let at = [&runs.q.value, &runs.p.value];
                 let roots = quick_in_lanes::<L, Midpoint, N, W>(&fields, at, runs.h, &guess, by_newton);
-                has_stepped = runs.follow(&roots);
+                let has_stepped = runs.follow(&roots);
+                is_alone = is_alone & !has_stepped;
+                if L::Memory::KEEPS {
+                    runs.pause(has_stepped);
+                }
             }
             if L::Memory::KEEPS && by_matrix.0.contains(&true) {
                 let (matrices, fields, h) = (&runs.kept.matrices, &fields, runs.h);
                 let at = [&runs.q.value, &runs.p.value];
-                let roots;
-                (roots, corrections) = if L::LINEAR {
+                let (roots, corrections) = if L::LINEAR {
                     by_linear_matrices::<L, Midpoint, N, W>(matrices, fields, at, h, &guess, by_matrix)
                 } else {
                     by_kept_matrices::<L, Midpoint, N, W>(matrices, fields, at, h, &guess, by_matrix)
                 };
-                has_stepped = has_stepped | runs.follow(&roots);
+                let before = runs.q.value;
+                let has_stepped = runs.follow(&roots);
+                is_alone = is_alone & !has_stepped;
+                runs.serve(has_stepped, step, &before, &corrections);
             }
-            if L::Memory::KEEPS {
-                for lane in 0..W {
-                    if has_stepped.0[lane] {
-                        runs.remember(lane, step, &before, corrections[lane]);
-                    }
-                }
-            }
-            let is_alone = runs.is_sound & !has_stepped;
             if is_alone.0.contains(&true) {
                 runs.step_alone(is_alone, step);
             }
