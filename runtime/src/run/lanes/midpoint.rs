@@ -20,7 +20,7 @@ use crate::system::Lagrangian;
 /// Values kept of W members on their way by steps that are solved for v̄.
 #[derive(Clone, Copy, Debug)]
 pub struct MemoriesInLanes<T, M, A, const N: usize, const W: usize> {
-    /// Members that take the next step by Newton's method, and by the matrix kept; the others take it alone.
+    /// Members that take the next step by Newton's method, and by the matrix kept; others take it alone.
     is_by_newton: Mask<W>,
     is_by_matrix: Mask<W>,
     /// The latest mean velocities, newest first, and how many of them are known.
@@ -101,7 +101,7 @@ impl<L: DiscreteInLanes<Midpoint, N>, const N: usize, const W: usize> LaneRuns<'
         }
     }
 
-    /// Takes in steps by the matrices kept, so many steps into the call, from q = `before` and each in so many
+    /// Takes in steps by the matrices kept, so many steps into the call, from q = `before`, each in so many
     /// corrections.
     fn serve(
         &mut self,
