@@ -28,6 +28,7 @@ mod second_order;
 mod structure;
 mod time_scale;
 pub mod verification;
+mod violation;
 
 pub use crate::numbers::{
     Blank, CancellingTerms, CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, LaneVector,
@@ -35,7 +36,7 @@ pub use crate::numbers::{
 };
 pub use acting_force::ActingForce;
 pub(crate) use constrained::sizes;
-pub use constrained::{Constrained, Violation, violation};
+pub use constrained::{Constrained, violation};
 pub use continuous::{Force, Lagrangian, Rayleigh};
 pub(crate) use continuous::{derivatives_apart, is_timed};
 pub use described::Described;
@@ -53,3 +54,4 @@ pub use sampled::sampled_forces;
 pub use second_order::SecondOrder;
 pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
 pub use time_scale::TimeScale;
+pub use violation::Violation;

@@ -5,8 +5,9 @@
 //! midpoint and trapezoidal rule with dense mass matrices, friction and a general force; by the midpoint rule
 //! with banded Newton matrices, n = 4…8; by the fitted rules, the one-sided one and the explicit trapezoidal
 //! rule, its composition and its splitting; steps of n = 1…3 coordinates by Gauss rules, with an input and
-//! time, and every derivative of them; and steps on constraints, one of them redundant, with reactions and A. Certificates are not among them. `cargo xtask no-panic` builds it
-//! at opt-level 3 and s, and with the feature `may-panic`, which must fail.
+//! time, and every derivative of them; and steps on constraints, one of them redundant, with reactions and A.
+//! Certificates are not among them. `cargo xtask no-panic` builds it at opt-level 3 and s, and with the
+//! feature `may-panic`, which must fail.
 
 #![no_std]
 #![no_main]

@@ -106,7 +106,8 @@ where
     ///
     /// let pendulums = [0.0, 0.01, 0.02, 0.03].map(|r| Pendulum { r });
     /// let start = State { q: [1.0].into(), p: [0.0].into() };
-    /// let mut runs = LaneRuns::new(Gauss::<6>, pendulums.each_ref(), &[start; 4], 0.5).solved_for(1e-6, 20.0);
+    /// let runs = LaneRuns::new(Gauss::<6>, pendulums.each_ref(), &[start; 4], 0.5);
+    /// let mut runs = runs.solved_for(1e-6, 20.0);
     /// runs.advance(40);
     /// for (lane, pendulum) in pendulums.iter().enumerate() {
     ///     let alone = pendulum.by(Gauss::<6>, 0.5).run(start).solved_for(1e-6, 20.0).nth(39).unwrap()?;

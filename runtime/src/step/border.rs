@@ -2,17 +2,13 @@
 
 use nalgebra::SVector;
 
-use crate::step::equation::OfRule;
-use crate::step::{
-    BoundedStep, ClosedForm, Discrete, PhaseMatrix, State, Step, StepError, step_by, step_matrix,
-    step_within_by,
-};
+use crate::step::{BoundedStep, PhaseMatrix, State, Step, StepError};
 use crate::system::Lagrangian;
 
-/// The border of the equation of a step by rule `R`: what holds the motion beside L, R and f, and how the step
-/// is solved with it. It alone knows how many multipliers there are.
+/// The border of the equation of a step by rule `R`: what holds the motion beside L, R and f, and how the
+/// step is solved with it. It alone knows how many multipliers there are.
 ///
-/// A system names it: [`Free`], or [`Holonomic`](crate::step::Holonomic) constraints.
+/// A system names it: [`Free`](crate::step::Free), or [`Holonomic`](crate::step::Holonomic) constraints.
 pub trait Border<L: Lagrangian<N> + ?Sized, R, const N: usize> {
     /// [`Flow::step`](crate::step::Flow::step).
     ///
@@ -47,43 +43,4 @@ pub trait Border<L: Lagrangian<N> + ?Sized, R, const N: usize> {
         step: &Step<L::Scalar, N>,
         h: L::Scalar,
     ) -> Result<PhaseMatrix<L::Scalar, N>, StepError>;
-}
-
-/// No border: a system without constraints.
-#[derive(Clone, Copy, Debug)]
-pub struct Free;
-
-impl<L, R, const N: usize> Border<L, R, N> for Free
-where
-    L: ClosedForm<R, N> + Discrete<R, N> + ?Sized,
-{
-    #[inline]
-    fn step(
-        system: &L,
-        state: &State<L::Scalar, N>,
-        h: L::Scalar,
-        guess: Option<&SVector<L::Scalar, N>>,
-    ) -> Result<Step<L::Scalar, N>, StepError> {
-        step_by(system, &OfRule::<L, R>::new(system), state, h, guess)
-    }
-
-    #[inline]
-    fn step_within(
-        system: &L,
-        state: &State<L::Scalar, N>,
-        h: L::Scalar,
-        guess: Option<&SVector<L::Scalar, N>>,
-        iterations: u32,
-    ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
-        step_within_by(system, &OfRule::<L, R>::new(system), state, h, guess, iterations)
-    }
-
-    fn step_matrix(
-        system: &L,
-        state: &State<L::Scalar, N>,
-        step: &Step<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> Result<PhaseMatrix<L::Scalar, N>, StepError> {
-        step_matrix(system, state, step, h)
-    }
 }

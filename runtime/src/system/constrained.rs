@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::Scalar;
-use crate::system::Lagrangian;
+use crate::system::{Lagrangian, Violation};
 
 /// Holonomic constraints gₖ(q) = 0, k = 1 … M, that hold a system on N = g⁻¹(0).
 ///
@@ -37,25 +37,6 @@ pub trait Constrained<const N: usize, const M: usize>: Lagrangian<N> {
         let _ = q;
         nalgebra::zero()
     }
-}
-
-/// The constraint that a point (q, v) violates, and by how much.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Violation {
-    /// q is off the constraint.
-    Off {
-        /// The constraint k, from 0.
-        constraint: usize,
-        /// gₖ(q).
-        value: f64,
-    },
-    /// q is on the constraints, and v leaves one.
-    Leaving {
-        /// The constraint k, from 0.
-        constraint: usize,
-        /// ∂gₖ/∂q·v + ∂gₖ/∂t.
-        rate: f64,
-    },
 }
 
 /// Roundings of the terms of gₖ and of its rate that a point on the constraints may be off, given as rounded

@@ -5,8 +5,7 @@ use quote::quote;
 
 use super::super::model::{Home, System};
 use super::super::parts::Part;
-use super::continuous::value;
-use super::view::subject;
+use super::view::{subject, value};
 
 /// `impl Constrained<2, 1> for Ring`, and for its view if it has one, with gradients and curvature written
 /// out.

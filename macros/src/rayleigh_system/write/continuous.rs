@@ -3,31 +3,12 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::super::model::{Home, Source, System};
+use super::super::model::{Home, System};
 use super::super::parts::Part;
 use super::super::structure::{Engine, Structure};
 use super::constrained;
 use super::item::PlainFields;
-use super::view::{self, arguments, owner, subject};
-
-/// The plain value of a part at the vectors q and v.
-pub fn value(system: &System<'_>, part: Part) -> TokenStream {
-    match system.source {
-        Source::Block(_) => {
-            let function = format_ident!("{}", part.name());
-            let (owner, arguments) = (owner(system.home_of(part)), arguments(system, part));
-            quote!(#owner.#function(#(#arguments),*))
-        }
-        Source::Function(source) => {
-            let name = &source.item.sig.ident;
-            let fields = source.fields().map(|(field, _)| quote!(self.#field));
-            let index = system
-                .has(Part::Rayleigh)
-                .then(|| if part == Part::Lagrangian { quote!(.0) } else { quote!(.1) });
-            quote!(#name((*q).into(), (*v).into(), #(#fields),*) #index)
-        }
-    }
-}
+use super::view::{self, owner, subject, value};
 
 /// `impl Lagrangian<2> for Ring`, with the derivatives of either engine.
 /// `places` are the functions of the system and of its view that find operations without a derivative.

@@ -5,7 +5,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
-use super::super::model::{Home, System};
+use super::super::model::{Home, Source, System};
 use super::super::parts::Part;
 use super::super::syntax::with_words;
 use super::item::conditions;
@@ -39,9 +39,28 @@ pub fn owner(home: Home) -> TokenStream {
 }
 
 /// The arguments of a part: the vectors q and v as arrays, `self.u`, `self.t`.
-pub fn arguments(system: &System<'_>, part: Part) -> impl Iterator<Item = TokenStream> {
+fn arguments(system: &System<'_>, part: Part) -> impl Iterator<Item = TokenStream> {
     let all = [quote!((*q).into()), quote!((*v).into()), quote!(self.u), quote!(self.t)];
     system.takes(part).unwrap_or_default().choose(all)
+}
+
+/// The plain value of a part at the vectors q and v.
+pub fn value(system: &System<'_>, part: Part) -> TokenStream {
+    match system.source {
+        Source::Block(_) => {
+            let function = format_ident!("{}", part.name());
+            let (owner, arguments) = (owner(system.home_of(part)), arguments(system, part));
+            quote!(#owner.#function(#(#arguments),*))
+        }
+        Source::Function(source) => {
+            let name = &source.item.sig.ident;
+            let fields = source.fields().map(|(field, _)| quote!(self.#field));
+            let index = system
+                .has(Part::Rayleigh)
+                .then(|| if part == Part::Lagrangian { quote!(.0) } else { quote!(.1) });
+            quote!(#name((*q).into(), (*v).into(), #(#fields),*) #index)
+        }
+    }
 }
 
 /// Tokens of the user's functions, `self.k` and `Self::K`, as seen from the view.

@@ -7,8 +7,8 @@ use crate::step::cause::explained_by_lagrangian;
 use crate::step::{StepError, require_regular};
 use crate::system::Lagrangian;
 
-/// The mass matrix ∂²L/∂v² at a point, made ready to solve with: in coordinates of the plane or of space it is
-/// often diagonal.
+/// The mass matrix ∂²L/∂v² at a point, made ready to solve with: in coordinates of the plane or of space it
+/// is often diagonal.
 pub(super) enum Inertia<S: Scalar, const N: usize> {
     Diagonal(SVector<S, N>),
     Full(<SMatrix<S, N, N> as NewtonMatrix<S, N>>::Factored),

@@ -1,8 +1,8 @@
 //! The derivative of a step on constraints.
 //!
 //! On N a step is (q0, p0) ↦ (q1, p1); it is extended to all of T*Q by the nearest state on N
-//! ([`State::nearest`]), so that A is 2N×2N. With κ = (h/2)λ and the derivatives K of the momenta that the rule
-//! has on a segment,
+//! ([`State::nearest`]), so that A is 2N×2N. With κ = (h/2)λ and the derivatives K of the momenta that the
+//! rule has on a segment,
 //!
 //! ```text
 //! dp0 = (K00 − κ·∂²g(q0)) dq0 + K01 dq1 − G(q0)ᵀdκ        G(q1) dq1 = 0

@@ -15,11 +15,11 @@ impl<L, R, const N: usize> Discretised<'_, L, R, N>
 where
     L: ClosedForm<R, N> + Discrete<R, N>,
 {
-    /// The multipliers λ of the `step` from `state`: the constraints act by the force Gᵀλ at q0, so that λₖ is
-    /// in the unit of force by that of ∂gₖ/∂q, N or N m where gₖ is a length or an angle.
+    /// The multipliers λ of the `step` from `state`: the constraints act by the force Gᵀλ at q0, so that λₖ
+    /// is in N or N m where gₖ is a length or an angle.
     ///
-    /// λ is that of the half step behind q0: the reaction at q0, to first order in h. Of redundant constraints
-    /// it is the one of least norm.
+    /// λ is that of the half step behind q0: the reaction at q0, to first order in h. Of redundant
+    /// constraints it is the one of least norm.
     ///
     /// ```
     /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
