@@ -3,8 +3,8 @@
 use core::ops::ControlFlow;
 
 use dalembert::State;
-use dalembert::run::{InLanes as LanesBy, LaneRuns, Stop};
-use dalembert::step::MethodOf;
+use dalembert::run::{LaneRuns, Stop};
+use dalembert::step::{FlowInLanes, MethodOf};
 use dalembert::system::Scalar;
 use multiversion::multiversion;
 use multiversion::target::match_target;
@@ -14,12 +14,12 @@ use crate::stepping::{NoEnd, Plan, Slot, Stepping, failed};
 
 /// As many members at a time as the machine has lanes for: [`Study::in_lanes`](crate::Study::in_lanes).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct InLanes<M, S> {
+pub struct SideBySide<M, S> {
     pub(crate) method: M,
     pub(crate) plan: Plan<S>,
 }
 
-impl<M, S> InLanes<M, S> {
+impl<M, S> SideBySide<M, S> {
     /// By this method and plan.
     #[must_use]
     pub const fn new(method: M, plan: Plan<S>) -> Self {
@@ -60,12 +60,12 @@ impl Versioned for Widest {
 }
 
 /// Runs that go on by so many steps.
-struct Advance<'r, 's, L: LanesBy<M, N>, M, const N: usize, const W: usize> {
+struct Advance<'r, 's, L: FlowInLanes<M, N>, M, const N: usize, const W: usize> {
     runs: &'r mut LaneRuns<'s, L, M, N, W>,
     steps: u64,
 }
 
-impl<L: LanesBy<M, N>, M, const N: usize, const W: usize> Versioned for Advance<'_, '_, L, M, N, W> {
+impl<L: FlowInLanes<M, N>, M, const N: usize, const W: usize> Versioned for Advance<'_, '_, L, M, N, W> {
     #[inline(always)]
     fn work<const MOST: usize>(self) -> usize {
         // Compiled for the one set that takes so many at a time.
@@ -85,7 +85,7 @@ const MOST_BYTES: usize = 256 * 1024;
 const LONG: u64 = 512;
 
 /// Members at a time, of at most so many: 8, or as many more as the method takes while their runs stay small.
-const fn width<L: LanesBy<M, N>, M, const N: usize>(most: usize) -> usize {
+const fn width<L: FlowInLanes<M, N>, M, const N: usize>(most: usize) -> usize {
     if most >= 32 && fits::<L, M, N, 32>() {
         32
     } else if most >= 16 && fits::<L, M, N, 16>() {
@@ -96,7 +96,7 @@ const fn width<L: LanesBy<M, N>, M, const N: usize>(most: usize) -> usize {
 }
 
 /// Whether the method takes W members at a time, and their runs stay small.
-const fn fits<L: LanesBy<M, N>, M, const N: usize, const W: usize>() -> bool {
+const fn fits<L: FlowInLanes<M, N>, M, const N: usize, const W: usize>() -> bool {
     W <= L::MOST_LANES && size_of::<LaneRuns<'_, L, M, N, W>>() <= MOST_BYTES
 }
 
@@ -113,9 +113,9 @@ struct OnItsWay<'s, L: dalembert::Lagrangian<N>, V, const N: usize> {
     next: u64,
 }
 
-impl<L, M, const N: usize> Stepping<L, N> for InLanes<M, L::Scalar>
+impl<L, M, const N: usize> Stepping<L, N> for SideBySide<M, L::Scalar>
 where
-    L: LanesBy<M, N>,
+    L: FlowInLanes<M, N>,
     M: Copy + Sync + MethodOf<L, N>,
 {
     fn advance<V>(
@@ -159,7 +159,7 @@ where
     }
 }
 
-impl<M: Copy, S: Scalar> InLanes<M, S> {
+impl<M: Copy, S: Scalar> SideBySide<M, S> {
     /// W members at a time. Where one of those in the lanes panics, nobody says which: each then goes alone,
     /// and W others that wait follow.
     fn advance_all<'s, L, V: 's, const N: usize, const W: usize>(
@@ -169,7 +169,7 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         stop: Stop<'_>,
     ) -> ControlFlow<()>
     where
-        L: LanesBy<M, N, Scalar = S> + 's,
+        L: FlowInLanes<M, N, Scalar = S> + 's,
         M: MethodOf<L, N>,
     {
         loop {
@@ -195,7 +195,7 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         stop: Stop<'_>,
     ) -> ControlFlow<()>
     where
-        L: LanesBy<M, N, Scalar = S> + 's,
+        L: FlowInLanes<M, N, Scalar = S> + 's,
         M: MethodOf<L, N>,
     {
         let Some(first) = &lanes[0] else { return ControlFlow::Continue(()) };
@@ -257,7 +257,7 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         stop: Stop<'_>,
     ) -> ControlFlow<(), Option<u64>>
     where
-        L: LanesBy<M, N, Scalar = S>,
+        L: FlowInLanes<M, N, Scalar = S>,
         M: MethodOf<L, N>,
     {
         let Some(state) = runs.state(lane) else {
@@ -267,7 +267,7 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         let Plan { h, steps: all, every, .. } = self.plan;
         let OnItsWay { number, system, next: steps, .. } = *member;
         let time = if steps == 0 { 0.0 } else { h.widen() * steps as f64 };
-        let record = Record { number, system, steps, time, state };
+        let record = Record { number, system, steps, time, state, event: None };
         let observed = observe(member.value, &record);
         member.seen += 1;
         if observed.is_break() || steps == all {
@@ -287,7 +287,7 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         stop: Stop<'_>,
     ) -> Result<(), NoEnd<S, N>>
     where
-        L: LanesBy<M, N, Scalar = S>,
+        L: FlowInLanes<M, N, Scalar = S>,
         M: MethodOf<L, N>,
     {
         let mut records = 0;

@@ -117,8 +117,8 @@ mod progress;
 mod stepping;
 mod study;
 
-pub use lanes::InLanes;
+pub use lanes::SideBySide;
 pub use member::{End, Failure, MemberError, Record};
 pub use progress::{Cancelled, Progress};
-pub use stepping::{OneByOne, Plan, Slot, Stepping, ToError};
+pub use stepping::{OneByOne, Plan, Slot, Stepping, ToError, one_by_one};
 pub use study::{Ends, Ensemble, Outcome, Study};

@@ -4,12 +4,13 @@ use core::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use dalembert::nalgebra::SVector;
+use dalembert::run::events::EventError;
 use dalembert::system::Scalar;
-use dalembert::tolerance::{Breach, ToleranceError};
+use dalembert::tolerance::ToleranceError;
 use dalembert::{Lagrangian, State, StepError};
 
 /// A member at a time: what a reduction sees.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct Record<'m, L: Lagrangian<N>, const N: usize> {
     /// Its number.
     pub number: u64,
@@ -21,7 +22,18 @@ pub struct Record<'m, L: Lagrangian<N>, const N: usize> {
     pub time: f64,
     /// The state.
     pub state: State<L::Scalar, N>,
+    /// The event function that vanishes there, of a record of an event: of a [`Stepping`](crate::Stepping)
+    /// that looks for events.
+    pub event: Option<usize>,
 }
+
+impl<L: Lagrangian<N>, const N: usize> Clone for Record<'_, L, N> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<L: Lagrangian<N>, const N: usize> Copy for Record<'_, L, N> {}
 
 impl<L: Lagrangian<N>, const N: usize> Record<'_, L, N> {
     /// The velocity, of the system as it is at the time of the state.
@@ -60,9 +72,8 @@ pub enum MemberError {
     Step(StepError),
     /// No method was chosen for the error asked for, or no run that was tried keeps it.
     Tolerance(ToleranceError),
-    /// The error expected has passed the one asked for on the way: of a [`Stepping`](crate::Stepping) of
-    /// one's own that tries one run.
-    Breach(Breach),
+    /// Its events cannot be followed.
+    Event(EventError),
     /// L, R or f panicked, or the function that makes the member.
     Panicked,
 }
@@ -78,11 +89,7 @@ impl fmt::Display for MemberError {
         match self {
             Self::Step(error) => error.fmt(f),
             Self::Tolerance(error) => error.fmt(f),
-            Self::Breach(Breach { time, expected, tolerance, instead, .. }) => write!(
-                f,
-                "the error expected passed the {tolerance:e} asked for at t = {time}: {expected:e}; ask for \
-                 {instead:e}"
-            ),
+            Self::Event(error) => error.fmt(f),
             Self::Panicked => f.write_str(
                 "L, R or f panicked, or what makes the member; run it alone to see where, and return an error \
                  instead",
@@ -103,6 +110,15 @@ impl core::error::Error for MemberError {}
 impl From<StepError> for MemberError {
     fn from(error: StepError) -> Self {
         Self::Step(error)
+    }
+}
+
+impl From<EventError> for MemberError {
+    fn from(error: EventError) -> Self {
+        match error {
+            EventError::Step(error) => Self::Step(error),
+            error => Self::Event(error),
+        }
     }
 }
 

@@ -30,8 +30,9 @@
 //! ```
 //!
 //! **Columns.** `member`; those of [`column`](Parts::column); `t`; `q0` …, `p0` …; `energy`, at the time of
-//! the row; `error`, null where there is none. A member that fails has its last good state in its last row,
-//! with the error; one without a start has nulls.
+//! the row; `event`, where the members are watched: the function that vanishes there, null of other rows;
+//! `error`, null where there is none. A member that fails has its last good state in its last row, with the
+//! error; one without a start has nulls.
 //!
 //! **A folder is of one study.** Its file `_study.parquet` says of which, as metadata: system, structure,
 //! method with step size and records, members of a part, version, and [`metadata`](Parts::metadata). The
@@ -215,7 +216,7 @@ where
     /// A table of no rows.
     fn empty(&self) -> Table {
         let columns: Vec<&str> = self.columns.iter().map(|(name, _)| name.as_str()).collect();
-        Table::new(&columns, N)
+        Table::new(&columns, N, self.study.stepping.has_events())
     }
 
     /// The rows of a part and more; `progress` is that before.
@@ -234,7 +235,8 @@ where
             all
         };
         let observe = |(rows, _): &mut Begun<N>, record: &Record<'_, L, N>| {
-            rows.push(Row::of(record.number, record.system, &self.columns, record.time, &record.state));
+            let row = Row::of(record.number, record.system, &self.columns, record.time, &record.state);
+            rows.push(Row { event: record.event, ..row });
         };
         self.study
             .reduce_chunks(
@@ -279,7 +281,7 @@ where
             _ => Row::without_start(failure.number),
         };
         // A record that is already there holds the last good state.
-        if rows.last().is_some_and(|known| known.time == row.time) {
+        if rows.last().is_some_and(|known| known.time == row.time && known.event.is_none()) {
             rows.pop();
         }
         rows.push(Row { error, ..row });

@@ -25,6 +25,9 @@ pub struct Slot<L: Lagrangian<N>, V, const N: usize> {
 }
 
 /// How the members of a chunk are stepped.
+///
+/// One of one's own may look for events: it hands them on as records ([`Record::event`]), in the order of
+/// time.
 pub trait Stepping<L: Lagrangian<N>, const N: usize>: Sync {
     /// Steps all of `members`; `observe` sees the records of each in the order of time, and says whether it
     /// goes on. Breaks where `stop` is asked to end, which it looks at some hundred steps apart at most: the
@@ -36,8 +39,18 @@ pub trait Stepping<L: Lagrangian<N>, const N: usize>: Sync {
         stop: Stop<'_>,
     ) -> ControlFlow<()>;
 
+    /// Members that a thread takes at a time at least: one, where a member takes long.
+    fn at_once(&self) -> u64 {
+        64
+    }
+
     /// How the members are stepped, in words: that two studies are the same.
     fn description(&self) -> String;
+
+    /// Whether records may be of events: files have a column for them then.
+    fn has_events(&self) -> bool {
+        false
+    }
 
     /// Numbers of a member's motion from its start, by which it is told from one that starts alike and moves
     /// otherwise, as with other fields. None unless it is implemented.
@@ -72,17 +85,17 @@ pub(crate) fn failed<S, const N: usize>(
     }
 }
 
-/// One member after the other: the run of each that has a start, and its failure.
-fn one_by_one<L: Lagrangian<N>, V, const N: usize>(
+/// Steps one member after the other: `run` makes the run of each that has a start, given its number, system,
+/// start and value, and says why it failed, if it did. Breaks where that does.
+pub fn one_by_one<L: Lagrangian<N>, V, const N: usize>(
     members: &mut [Slot<L, V, N>],
-    run: impl Fn(u64, &L, &State<L::Scalar, N>, &mut V) -> Result<(), NoEnd<L::Scalar, N>>,
+    run: impl Fn(u64, &L, &State<L::Scalar, N>, &mut V) -> ControlFlow<(), Option<Failure<L::Scalar, N>>>,
 ) -> ControlFlow<()> {
     for Slot { number, start, value, failure } in members {
-        let done = match start {
-            Ok((system, start)) => run(*number, system, start, value),
-            Err(error) => Err(Failure { number: *number, error: (*error).into(), last: None }.into()),
+        *failure = match start {
+            Ok((system, start)) => run(*number, system, start, value)?,
+            Err(error) => Some(Failure { number: *number, error: (*error).into(), last: None }),
         };
-        *failure = failed(done)?;
     }
     ControlFlow::Continue(())
 }
@@ -127,7 +140,7 @@ where
         stop: Stop<'_>,
     ) -> ControlFlow<()> {
         one_by_one(members, |number, system, start, value| {
-            self.plan.run(self.method, (number, system, start), |record| observe(value, record), stop)
+            failed(self.plan.run(self.method, (number, system, start), |record| observe(value, record), stop))
         })
     }
 
@@ -184,7 +197,7 @@ impl<S: Scalar> Plan<S> {
         if let Some(error) = self.error {
             run = run.solved_for(error, self.time());
         }
-        let start = Record { number, system, steps: 0, time: 0.0, state: *start };
+        let start = Record { number, system, steps: 0, time: 0.0, state: *start, event: None };
         if (self.every.is_some() || self.steps == 0) && observe(&start).is_break() {
             return Ok(());
         }
@@ -206,7 +219,8 @@ impl<S: Scalar> Plan<S> {
                 continue;
             }
             next = self.steps.min(steps.saturating_add(stride));
-            let record = Record { number, system, steps, time: run.time(), state: *run.state() };
+            let (time, state) = (run.time(), *run.state());
+            let record = Record { number, system, steps, time, state, event: None };
             if observe(&record).is_break() {
                 break;
             }
@@ -245,18 +259,19 @@ where
         one_by_one(members, |number, system, start, value| {
             let request = system.to_error(self.tolerance).until(self.time).stopped_by(stop);
             let reached = caught(|| request.end(start)).and_then(|end| end.map_err(MemberError::from));
-            let reached = reached.map_err(|error| match error {
-                MemberError::Tolerance(ToleranceError::Stopped) => NoEnd::Stopped,
-                error => {
+            let reached = match reached {
+                Ok(reached) => reached,
+                Err(MemberError::Tolerance(ToleranceError::Stopped)) => return ControlFlow::Break(()),
+                Err(error) => {
                     let last = Some(End { number, time: 0.0, state: *start });
-                    Failure { number, error, last }.into()
+                    return ControlFlow::Continue(Some(Failure { number, error, last }));
                 }
-            })?;
+            };
             let (steps, state) = (reached.choice.steps(), reached.state);
             let time = reached.choice.step_size() * steps as f64;
             // The end is the only record: nothing is left to be stopped.
-            let _ = observe(value, &Record { number, system, steps, time, state });
-            Ok(())
+            let _ = observe(value, &Record { number, system, steps, time, state, event: None });
+            ControlFlow::Continue(None)
         })
     }
 

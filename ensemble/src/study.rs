@@ -5,13 +5,13 @@ use core::ops::{ControlFlow, Range};
 use core::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use dalembert::run::{InLanes as LanesBy, Stop};
-use dalembert::step::{Flow, MethodOf};
+use dalembert::run::Stop;
+use dalembert::step::{Flow, FlowInLanes, MethodOf};
 use dalembert::tolerance::OffersMethods;
 use dalembert::{Gauss, Lagrangian, State, StepError};
 use rayon::prelude::*;
 
-use crate::lanes::InLanes;
+use crate::lanes::SideBySide;
 use crate::member::{End, Failure, MemberError, Record, caught};
 use crate::progress::{Cancelled, Progress};
 use crate::stepping::{OneByOne, Plan, Slot, Stepping, ToError};
@@ -19,8 +19,8 @@ use crate::stepping::{OneByOne, Plan, Slot, Stepping, ToError};
 /// Chunks for each thread between two additions to the total.
 const CHUNKS: u64 = 16;
 
-/// Members that a thread takes at a time: the least, and the most, which bounds the memory.
-const CHUNK: [u64; 2] = [64, 1024];
+/// Members that a thread takes at a time, at most: it bounds the memory.
+const CHUNK: u64 = 1024;
 
 /// Chunks that take less than this on the way from one addition to the next are followed by larger ones.
 const BRIEF: Duration = Duration::from_millis(200);
@@ -178,7 +178,7 @@ impl<F, L: Lagrangian<N>, const S: usize, const N: usize> Study<'_, F, OneByOne<
 
 impl<'f, F, M, L, const N: usize> Study<'f, F, OneByOne<M, L::Scalar>, L, N>
 where
-    L: LanesBy<M, N>,
+    L: FlowInLanes<M, N>,
 {
     /// As many members at a time as the machine has lanes for: 32, 16 or 8, fewer of many coordinates; every
     /// field has its own value.
@@ -205,10 +205,10 @@ where
     /// assert_eq!(study().in_lanes().ends(0..100)?, study().ends(0..100)?);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn in_lanes(self) -> Study<'f, F, InLanes<M, L::Scalar>, L, N> {
+    pub fn in_lanes(self) -> Study<'f, F, SideBySide<M, L::Scalar>, L, N> {
         let OneByOne { method, plan } = self.stepping;
         let Self { members, progress, cancel, arrival, of, .. } = self;
-        Study { members, stepping: InLanes { method, plan }, progress, cancel, arrival, of }
+        Study { members, stepping: SideBySide { method, plan }, progress, cancel, arrival, of }
     }
 }
 
@@ -381,7 +381,7 @@ where
         };
         let is_flagged = || self.is_flagged();
         let stop = Stop::when(&is_flagged);
-        let [mut size, largest] = CHUNK;
+        let mut size = self.stepping.at_once().clamp(1, CHUNK);
         let mut first = numbers.start;
         while first < numbers.end {
             if self.is_cancelled(progress) {
@@ -432,7 +432,7 @@ where
             }
             first = end;
             if begin.elapsed() < BRIEF {
-                size = largest.min(2 * size);
+                size = CHUNK.min(2 * size);
             }
         }
         // All is done: there is nothing left to cancel.

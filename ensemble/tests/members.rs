@@ -1,13 +1,16 @@
 //! Members are the trajectories that they would be alone; one that fails stands in the result.
 
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use dalembert::nalgebra::vector;
+use dalembert::run::Stop;
 use dalembert::{
     Composition, Discretise, Gauss, Midpoint, Splitting, State, StepError, Trapezoidal, rayleigh_system,
 };
-use dalembert_ensemble::{Ensemble, MemberError, Progress};
+use dalembert_ensemble::{Ensemble, MemberError, Progress, Record, Slot, Stepping, one_by_one};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::ThreadPoolBuilder;
@@ -237,4 +240,58 @@ fn members_may_be_driven_and_start_at_a_time_of_their_own() {
         let exact = driven(member).by(Gauss::<8>, 0.05).run(start).nth(59).unwrap().unwrap().state;
         assert!((end.unwrap().state.q - exact.q).amax() < 1e-8);
     }
+}
+
+/// Members that wait for each other, so long: whether two have met.
+struct Meeting<'m> {
+    at_once: u64,
+    patience: Duration,
+    there: AtomicU64,
+    have_met: &'m AtomicBool,
+}
+
+impl Stepping<Ring, 2> for Meeting<'_> {
+    fn advance<V>(
+        &self,
+        members: &mut [Slot<Ring, V, 2>],
+        _: &impl Fn(&mut V, &Record<'_, Ring, 2>) -> ControlFlow<()>,
+        _: Stop<'_>,
+    ) -> ControlFlow<()> {
+        one_by_one(members, |_, _, _, _| {
+            if self.there.fetch_add(1, Ordering::SeqCst) == 1 {
+                self.have_met.store(true, Ordering::SeqCst);
+            }
+            let since = Instant::now();
+            while !self.have_met.load(Ordering::SeqCst) && since.elapsed() < self.patience {
+                thread::yield_now();
+            }
+            self.there.fetch_sub(1, Ordering::SeqCst);
+            ControlFlow::Continue(None)
+        })
+    }
+
+    fn at_once(&self) -> u64 {
+        self.at_once
+    }
+
+    fn description(&self) -> String {
+        "a meeting".to_owned()
+    }
+}
+
+#[test]
+fn few_members_that_take_long_are_stepped_by_all_threads() {
+    let have_met = |at_once, patience| {
+        let (there, have_met) = (AtomicU64::new(0), AtomicBool::new(false));
+        let meeting = Meeting { at_once, patience, there, have_met: &have_met };
+        let study = Ensemble::new(random).stepped(meeting);
+        let pool = ThreadPoolBuilder::new().num_threads(2).build().unwrap();
+        // None of them has a record.
+        let members = |count: &mut u64, _| *count += 1;
+        assert_eq!(pool.install(|| study.reduce(0..2, |_| (), |(), _| (), 0, members)).unwrap(), 2);
+        have_met.load(Ordering::SeqCst)
+    };
+    assert!(have_met(1, Duration::from_secs(20)));
+    // Control: one thread takes both.
+    assert!(!have_met(64, Duration::from_millis(100)));
 }

@@ -68,6 +68,7 @@ impl ActingForce<2> for RingByHand {
 impl Fused<Midpoint, 2> for RingByHand {
     type Matrix = Matrix2<f64>;
     type Memory = VelocityHistory<f64, 2>;
+    type Border = dalembert::step::Free;
 
     fn step_kernel(&self, segment: &Segment<f64, 2>) -> StepKernel<f64, 2> {
         Midpoint::lagrangian_kernel(self, segment) + Midpoint::rayleigh_kernel(self, segment)

@@ -8,6 +8,7 @@
 pub mod attribute;
 pub mod check;
 mod conditions;
+mod constraints;
 mod contexts;
 mod decide;
 mod depth;
@@ -26,6 +27,7 @@ pub mod lower;
 mod model;
 mod parameters;
 pub mod parse;
+mod parts;
 mod portable;
 mod renamed;
 mod rules;

@@ -102,6 +102,7 @@ mod attributes {
 /// | `fn lagrangian(&self, q: [f64; N], v: [f64; N]) -> f64` | L; its array type says N, a number or a constant |
 /// | `fn rayleigh(&self, v: [f64; N]) -> f64`, or `(&self, q, v)` | R, if there is dissipation: the force is −∂R/∂v |
 /// | `fn force(&self, q: [f64; N], v: [f64; N]) -> [f64; N]` | a general force, if there is one; `(&self, q, v, u: [f64; M])` with an input |
+/// | `fn constraints(&self, q: [f64; N]) -> [f64; M]` | holonomic constraints g(q) = 0, if there are any: [below](#constraints) |
 /// | `fn time_scale(&self, q: [f64; N]) -> f64` | σ > 0, if steps are to follow the motion: [`in_scaled_time`](Trajectory::in_scaled_time) |
 /// | any other | a helper: differentiated if one of these calls it, untouched otherwise |
 ///
@@ -161,6 +162,54 @@ mod attributes {
 /// # Ok::<(), StepError>(())
 /// ```
 ///
+/// # Constraints
+///
+/// Steps on constraints keep g(q) = 0 to rounding, by `midpoint` and `trapezoidal` and by
+/// [`Composition`]s of them: no stabilisation, nothing to tune. Coordinates may be as many as are
+/// convenient, those of each body for itself, and constraints may be redundant.
+///
+/// ```
+/// use dalembert::{Discretise, Midpoint, State, StepError, rayleigh_system};
+///
+/// /// A bob on a rod, in the plane.
+/// struct Pendulum {
+///     m: f64,
+///     length: f64,
+///     c: f64,
+/// }
+///
+/// #[rayleigh_system]
+/// impl Pendulum {
+///     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+///         0.5 * self.m * (v[0] * v[0] + v[1] * v[1]) - self.m * 9.81 * q[1]
+///     }
+///     fn rayleigh(&self, v: [f64; 2]) -> f64 {
+///         0.5 * self.c * (v[0] * v[0] + v[1] * v[1])
+///     }
+///     fn constraints(&self, q: [f64; 2]) -> [f64; 1] {
+///         [(q[0] * q[0] + q[1] * q[1]).sqrt() - self.length]
+///     }
+/// }
+///
+/// let pendulum = Pendulum { m: 2.0, length: 0.8, c: 0.1 };
+/// // q has to be on the constraints and v along them: `from_velocity` refuses what is not.
+/// let off = State::from_velocity(&pendulum, [0.5, -0.6], [0.0, 0.0]);
+/// assert!(matches!(off, Err(StepError::OffConstraint { constraint: 0, .. })));
+/// let start = State::nearest(&pendulum, [0.5, -0.6], [0.0, 0.0])?;
+///
+/// let by = pendulum.by(Midpoint, 0.01);
+/// let end = by.run(start).nth(999).unwrap()?.state;
+/// assert!((end.q.norm() - 0.8).abs() < 1e-15);
+/// // The force in the rod, in N.
+/// let tension = -by.reactions(&end, &by.step(&end)?)?[0];
+/// assert!(tension > 0.0 && tension < 3.0 * 2.0 * 9.81);
+/// # Ok::<(), StepError>(())
+/// ```
+///
+/// A = ∂(q1, p1)/∂(q0, p0) is that of [`linearized_step`](Discretised::linearized_step). Constraints go with
+/// inputs and times of the other functions; not yet with Gauss rules, lanes, `to_error`, `time_scale`,
+/// `parameters` and `step_derivatives`, nor in the bindings to C, FMI and Python.
+///
 /// # Rules
 ///
 /// | `rule = ` | | asks for |
@@ -182,7 +231,7 @@ mod attributes {
 /// | `step_derivatives = second` | second derivatives of the step: [`StepHessian`](derivative::StepHessian) |
 /// | `lanes = explicit` | explicit steps of many members at once, each with fields, an input and a time of its own: [`LaneRuns`](run::LaneRuns); written out only. Sine, cosine and exponential of the force are then the branch-free ones of [`Lanes`](generated::Lanes), for one member too |
 /// | `lanes = midpoint`, `lanes = gauss` | the same of the midpoint rule and of Gauss rules; `lanes = [explicit, gauss]` for both |
-/// | `multiply_add = fused` | products are rounded with the sums that they stand in: in derivatives, and in the sums over stages of Gauss rules; written out only. Members in lanes and their own runs have the same bits. In a build for any x86-64, with AVX2, Gauss rules in lanes take 0.89 to 0.95 of the time and explicit methods gain nothing; a run of its own takes 9 times the time there, as a function stands for the instruction, and 0.9 in a native build |
+/// | `multiply_add = fused` | products are rounded with the sums that they stand in: in derivatives, and in the sums over stages of Gauss rules; written out only. Members in lanes and their own runs have the same bits. In a build for any x86-64, with AVX2, Gauss rules in lanes take 0.89 to 0.95 of the time and explicit methods gain nothing; a run of its own takes 9 times the time there, as a function stands for the instruction, which a warning says where there are no lanes, and 0.9 in a native build |
 /// | `crate = mechanics` | the path of this crate, where Cargo.toml gives it another name: `mechanics = { package = "dalembert" }`; also of [`differentiable`](macro@differentiable) |
 ///
 /// Where `auto` cannot write the derivatives out, dual numbers make them when the program runs: twice as

@@ -22,7 +22,7 @@ pub use displacement::{DisplacementRule, Node};
 pub use fitted::Fitted;
 pub use fitted_trapezoidal::FittedTrapezoidal;
 pub use gauss::{Gauss, StageHistory};
-pub(crate) use gauss::{SLACK, Solver, StagesInLanes, steps_until};
+pub(crate) use gauss::{SLACK, Solver, steps_until};
 pub(crate) use joint::JointRayleighRule;
 pub use joint::JointRule;
 pub use midpoint::Midpoint;

@@ -20,6 +20,7 @@ mod splitting;
 pub mod tolerance;
 mod trajectory;
 
+pub use crate::step::in_lanes::LaneRuns;
 pub use crate::step::stop::Stop;
 pub use checkpoint::Checkpoint;
 pub(crate) use checkpoint::Course;
@@ -27,7 +28,7 @@ pub use composition::Composition;
 pub use discretise::Discretise;
 pub use driven::DrivenTrajectory;
 pub use held_input::{Carried, HeldInput, InPeriod, Period, Sensitivities};
-pub use lanes::{ExplicitInLanes, InLanes, LaneRuns};
+pub use lanes::ExplicitInLanes;
 pub use memory::{DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, VelocityHistory};
 pub use splitting::Splitting;
 pub(crate) use trajectory::TakenUntil;

@@ -2,6 +2,7 @@
 //!
 //! Uses numbers and systems. What rules there are, it does not know.
 
+mod border;
 pub(crate) mod cause;
 mod closed_form;
 mod defect;
@@ -16,7 +17,9 @@ pub(crate) mod equation;
 mod error;
 pub(crate) mod flow;
 mod force_work;
+mod free;
 mod fused;
+mod holonomic;
 pub(crate) mod in_lanes;
 mod kernel;
 mod legendre;
@@ -38,6 +41,7 @@ mod velocity_history;
 
 pub use crate::numbers::{Banded, NewtonMatrix, Singular};
 pub use crate::system::Quantity;
+pub use border::Border;
 pub use closed_form::ClosedForm;
 pub(crate) use closed_form::{ByFormula, Formulas};
 pub use defect::Defect;
@@ -52,9 +56,11 @@ pub use driven::{DiscreteDriven, DiscreteParameters};
 pub use error::StepError;
 pub use flow::{BoundedFlow, Flow, Memory};
 pub use force_work::{EnergyExchange, ForceWork};
+pub use free::Free;
 pub use fused::Fused;
-pub use in_lanes::DiscreteInLanes;
-pub(crate) use in_lanes::{KeptOf, MemoryInLanes};
+pub use holonomic::Holonomic;
+pub use in_lanes::{DiscreteInLanes, FlowInLanes};
+pub(crate) use in_lanes::{Ends, KeptOf, LaneRuns, MemoryInLanes};
 pub use kernel::{Momenta, MomentaBy, StepKernel};
 pub use linearizable::Linearizable;
 pub(crate) use linearization::invert;
@@ -65,7 +71,8 @@ pub use outcome::{BoundedStep, LinearizedStep, Report, Step};
 pub(crate) use regular::require_regular;
 pub use second_order::{DiscreteSecondOrder, StepHessian};
 pub use segment::Segment;
-pub(crate) use solve::{of_any_step, or_without_guess, require_step_size, step_by, step_within_by};
+pub use solve::require_step_size;
+pub(crate) use solve::{of_any_step, or_without_guess, step_by, step_within_by};
 pub use solved_for_velocity::SolvedForVelocity;
 pub(crate) use start::{of_equation_and_step, verify_momenta, verify_start};
 pub use state::State;

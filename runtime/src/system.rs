@@ -9,12 +9,14 @@
 //! Uses numbers, of which those that it speaks in are shown here.
 
 mod acting_force;
+mod constrained;
 mod continuous;
 mod described;
 mod driven;
 mod error;
 mod fields;
 mod forced;
+mod gathered;
 pub mod missing;
 mod no_derivative;
 mod operation;
@@ -26,12 +28,15 @@ mod second_order;
 mod structure;
 mod time_scale;
 pub mod verification;
+mod violation;
 
 pub use crate::numbers::{
     Blank, CancellingTerms, CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, LaneVector,
     Lanes, Mask, Scalar, Variations,
 };
 pub use acting_force::ActingForce;
+pub(crate) use constrained::sizes;
+pub use constrained::{Constrained, violation};
 pub use continuous::{Force, Lagrangian, Rayleigh};
 pub(crate) use continuous::{derivatives_apart, is_timed};
 pub use described::Described;
@@ -39,6 +44,7 @@ pub use driven::{Driven, Input};
 pub use error::{Compared, Function, GeneratedDiffers};
 pub use fields::{ScalarField, VectorField};
 pub use forced::{ForcedLagrangian, ForcedLagrangianInLanes, Stages};
+pub use gathered::Gathered;
 pub use no_derivative::NoDerivative;
 pub use operation::{Operation, Place, Written};
 pub use parameters::{GradientBy, Parameters};
@@ -48,3 +54,4 @@ pub use sampled::sampled_forces;
 pub use second_order::SecondOrder;
 pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
 pub use time_scale::TimeScale;
+pub use violation::Violation;

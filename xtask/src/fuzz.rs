@@ -1,8 +1,8 @@
-//! `fuzz`: every target for some seconds, from the corpus kept in `fuzz/corpus/`: how many inputs were tried,
-//! and how many failed.
+//! `fuzz`: every target for some seconds, from the corpus kept in `tests/fuzz/corpus/`: how many inputs were
+//! tried, and how many failed.
 //!
-//! A failing input stays in `fuzz/artifacts/TARGET/`; with it as argument the program of the target, in
-//! `fuzz/target/TRIPLE/release/`, fails again, and `FUZZ_SHOW=1` says what it means for the step.
+//! A failing input stays in `tests/fuzz/artifacts/TARGET/`; with it as argument the program of the target, in
+//! `tests/fuzz/target/TRIPLE/release/`, fails again, and `FUZZ_SHOW=1` says what it means for the step.
 
 mod corpus;
 
@@ -49,7 +49,7 @@ pub fn run(words: &[&str]) -> Result<()> {
     };
     let seconds = Duration::from_secs(seconds.parse().context("seconds")?);
     let shell = project::shell()?;
-    shell.change_dir("fuzz");
+    shell.change_dir("tests/fuzz");
     // No sanitizer: no crate fuzzed here has unsafe code. Coverage, debug assertions and overflow checks
     // stay.
     cmd!(shell, "cargo +nightly fuzz build --fuzz-dir . --sanitizer none").run()?;

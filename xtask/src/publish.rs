@@ -1,4 +1,5 @@
-//! `publish`: what must hold before the crates are published; docs/publishing.md says how that is done.
+//! `publish`: what must hold before the crates are published; `docs/evidence/publishing.md` says how it is
+//! done.
 
 mod dependencies;
 mod documentation;

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
-use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int32Type, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
@@ -66,16 +66,28 @@ fn write_table(to: impl Write + Send, table: &Table, metadata: &Entries) -> Resu
             column.close()?;
         }
     }
+    if let Some(events) = &table.events
+        && let Some(mut column) = group.next_column()?
+    {
+        let (values, present) = present(events);
+        let values: Vec<i32> = values.copied().collect();
+        column.typed::<Int32Type>().write_batch(&values, Some(&present), None)?;
+        column.close()?;
+    }
     if let Some(mut column) = group.next_column()? {
-        let values: Vec<ByteArray> =
-            table.errors.iter().flatten().map(|error| ByteArray::from(error.as_str())).collect();
-        let present: Vec<i16> = table.errors.iter().map(|error| i16::from(error.is_some())).collect();
+        let (values, present) = present(&table.errors);
+        let values: Vec<ByteArray> = values.map(|error| ByteArray::from(error.as_str())).collect();
         column.typed::<ByteArrayType>().write_batch(&values, Some(&present), None)?;
         column.close()?;
     }
     group.close()?;
     file.close()?;
     Ok(())
+}
+
+/// The values that there are, and 1 or 0 for each row.
+fn present<T>(rows: &[Option<T>]) -> (impl Iterator<Item = &T>, Vec<i16>) {
+    (rows.iter().flatten(), rows.iter().map(|row| i16::from(row.is_some())).collect())
 }
 
 fn schema(table: &Table) -> Result<Type, ParquetError> {
@@ -89,6 +101,12 @@ fn schema(table: &Table) -> Result<Type, ParquetError> {
             .with_repetition(Repetition::OPTIONAL)
             .build()?;
         columns.push(Arc::new(column));
+    }
+    if table.events.is_some() {
+        let event = Type::primitive_type_builder("event", Physical::INT32)
+            .with_repetition(Repetition::OPTIONAL)
+            .build()?;
+        columns.push(Arc::new(event));
     }
     let error = Type::primitive_type_builder("error", Physical::BYTE_ARRAY)
         .with_repetition(Repetition::OPTIONAL)

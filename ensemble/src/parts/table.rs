@@ -18,6 +18,8 @@ pub(super) struct Row<const N: usize> {
     pub(super) time: Option<f64>,
     pub(super) state: Option<[SVector<f64, N>; 2]>,
     pub(super) energy: Option<f64>,
+    /// The event function that vanishes there.
+    pub(super) event: Option<usize>,
     pub(super) error: Option<String>,
 }
 
@@ -41,12 +43,14 @@ impl<const N: usize> Row<N> {
                 .ok()
                 .and_then(Result::ok)
                 .map(Scalar::widen),
+            event: None,
             error: None,
         }
     }
 
     pub(super) fn without_start(number: u64) -> Self {
-        Self { number, fields: Vec::new(), time: None, state: None, energy: None, error: None }
+        let fields = Vec::new();
+        Self { number, fields, time: None, state: None, energy: None, event: None, error: None }
     }
 }
 
@@ -70,17 +74,20 @@ pub(super) struct Table {
     pub(super) members: Vec<i64>,
     /// The fields, t, q, p, energy.
     pub(super) numbers: Vec<Numbers>,
+    /// The event functions that vanish, of members that are watched.
+    pub(super) events: Option<Vec<Option<i32>>>,
     pub(super) errors: Vec<Option<String>>,
     fields: usize,
 }
 
 impl Table {
-    pub(super) fn new(fields: &[&str], coordinates: usize) -> Self {
+    pub(super) fn new(fields: &[&str], coordinates: usize, has_events: bool) -> Self {
         let of = |symbol: char| (0..coordinates).map(move |i| format!("{symbol}{i}"));
         let names = fields.iter().map(|name| (*name).to_owned());
         let names = names.chain(["t".to_owned()]).chain(of('q')).chain(of('p')).chain(["energy".to_owned()]);
         let numbers = names.map(|name| Numbers { name, ..Numbers::default() }).collect();
-        Self { members: Vec::new(), numbers, errors: Vec::new(), fields: fields.len() }
+        let events = has_events.then(Vec::new);
+        Self { members: Vec::new(), numbers, events, errors: Vec::new(), fields: fields.len() }
     }
 
     pub(super) fn push<const N: usize>(&mut self, row: Row<N>) {
@@ -89,6 +96,9 @@ impl Table {
         let coordinates = (0..2 * N).map(|i| row.state.as_ref().map(|state| state[i / N][i % N]));
         let values = fields.chain([row.time]).chain(coordinates).chain([row.energy]);
         self.numbers.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+        if let Some(events) = &mut self.events {
+            events.push(row.event.and_then(|event| i32::try_from(event).ok()));
+        }
         self.errors.push(row.error);
     }
 
@@ -96,6 +106,9 @@ impl Table {
     pub(super) fn append(&mut self, mut other: Self) {
         self.members.append(&mut other.members);
         self.errors.append(&mut other.errors);
+        if let (Some(events), Some(more)) = (&mut self.events, &mut other.events) {
+            events.append(more);
+        }
         for (column, more) in self.numbers.iter_mut().zip(&mut other.numbers) {
             column.values.append(&mut more.values);
             column.present.append(&mut more.present);

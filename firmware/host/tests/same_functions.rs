@@ -2,7 +2,8 @@
 //! the platform's.
 
 use dalembert::nalgebra::SVector;
-use dalembert::run::{Explicit, InLanes, LaneRuns};
+use dalembert::run::{Explicit, LaneRuns};
+use dalembert::step::FlowInLanes;
 use dalembert::system::Scalar;
 use dalembert::{
     Discretise, Elementary, Force, Gauss, Lagrangian, Midpoint, Rayleigh, Splitting, State, Trapezoidal,
@@ -142,7 +143,7 @@ fn branch_free_functions_leave_what_is_beyond_their_range_to_libm() {
 fn lanes_compute_what_each_member_does_alone() {
     fn agree<L, M>(method: M, members: &[L; 6], starts: &[State<L::Scalar, 2>; 6])
     where
-        L: InLanes<M, 2, Scalar: Into<f64>>,
+        L: FlowInLanes<M, 2, Scalar: Into<f64>>,
         M: Copy,
     {
         let h = L::Scalar::constant(0.05);

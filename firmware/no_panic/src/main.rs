@@ -4,15 +4,17 @@
 //! coordinates in `f64` and `f32`, with and without a guess, of bounded work, alone and in a trajectory: by
 //! midpoint and trapezoidal rule with dense mass matrices, friction and a general force; by the midpoint rule
 //! with banded Newton matrices, n = 4…8; by the fitted rules, the one-sided one and the explicit trapezoidal
-//! rule, its composition and its splitting; and steps of n = 1…3 coordinates by Gauss rules, with an input
-//! and time, and every derivative of them. Certificates are not among them. `cargo xtask no-panic` builds it
-//! at opt-level 3 and s, and with the feature `may-panic`, which must fail.
+//! rule, its composition and its splitting; steps of n = 1…3 coordinates by Gauss rules, with an input and
+//! time, and every derivative of them; and steps on constraints, one of them redundant, with reactions and A.
+//! Certificates are not among them. `cargo xtask no-panic` builds it at opt-level 3 and s, and with the
+//! feature `may-panic`, which must fail.
 
 #![no_std]
 #![no_main]
 // The control needs but some of the steps.
 #![cfg_attr(feature = "may-panic", allow(dead_code))]
 
+mod constrained;
 mod gauss;
 mod systems;
 
@@ -36,7 +38,7 @@ fn panic(_: &PanicInfo) -> ! {
 #[unsafe(no_mangle)]
 pub extern "C" fn main() -> i32 {
     #[cfg(not(feature = "may-panic"))]
-    let failed = systems::step_all() + gauss::step_all();
+    let failed = systems::step_all() + gauss::step_all() + constrained::step_all();
     #[cfg(feature = "may-panic")]
     let failed = [1, 2, 3][black_box(gauss::step_all()) as usize];
     black_box(failed)

@@ -5,18 +5,16 @@ mod shape;
 mod signature;
 
 use quote::ToTokens;
-use syn::{ImplItemFn, Type};
+use syn::{Ident, ImplItemFn, Type};
 
 use super::attribute::Options;
 use super::diagnostics::{Mistake, Report};
-use super::model::{Body, Degrees, Function, RayleighArguments, Source, System, Timed};
+use super::model::{Body, Degrees, Function, Source, System};
+use super::parts::{Arguments, Part};
 use place::{Parameter, Place, at_field, at_place};
 use shape::{Shape, is, same_shape, shape_of};
 pub use signature::qualifiers;
-use signature::{
-    force_signature, lagrangian_signature, rayleigh_signature, result, result_tokens, time_scale_signature,
-    typed_parameters,
-};
+use signature::{result, result_tokens, typed_parameters};
 
 /// The system as far as its signatures tell, or nothing if not even N is known; every wrong one is reported.
 pub fn system<'a>(source: &'a Source, options: &Options, report: &mut Report) -> Option<System<'a>> {
@@ -28,68 +26,38 @@ pub fn system<'a>(source: &'a Source, options: &Options, report: &mut Report) ->
 
 fn block<'a>(source: &'a Source, options: &Options, report: &mut Report) -> Option<System<'a>> {
     let named = |name: &str| source.functions().find(|function| function.sig.ident == name);
-    let rayleigh = named("rayleigh");
-    let Some(lagrangian) = named("lagrangian") else {
-        match rayleigh {
+    let Some(lagrangian) = named(Part::Lagrangian.name()) else {
+        match named(Part::Rayleigh.name()) {
             Some(rayleigh) => report.at(&rayleigh.sig.ident, Mistake::RayleighWithoutLagrangian),
             None => report.at(source.name(), Mistake::NoLagrangian),
         }
         return None;
     };
-    let before = report.count();
-    let (shape, of_lagrangian) = lagrangian_signature(&lagrangian.sig, source.name(), report)?;
-    let mut bodies = Vec::new();
-    let mut keep = |function: &ImplItemFn, before, report: &Report| {
-        bodies.push(Body { function: function.clone(), has_right_signature: report.count() == before });
-    };
-    keep(lagrangian, before, report);
-    let (arguments, of_rayleigh) = rayleigh
-        .and_then(|rayleigh| {
-            let before = report.count();
-            let arguments = rayleigh_signature(&rayleigh.sig, &shape, report);
-            keep(rayleigh, before, report);
-            arguments
-        })
-        .unzip();
-    let force = named("force");
-    let (input, of_force) = force
-        .and_then(|force| {
-            let before = report.count();
-            let arguments = force_signature(&force.sig, &shape, report);
-            keep(force, before, report);
-            arguments
-        })
-        .unwrap_or_default();
-    let time_scale = named("time_scale");
-    if let Some(time_scale) = time_scale {
+    let shape = signature::shape(&lagrangian.sig, source.name(), report)?;
+    let (mut bodies, mut takes) = (Vec::new(), [None; Part::ALL.len()]);
+    let (mut input, mut constraints) = (None, None);
+    for (part, takes) in Part::ALL.into_iter().zip(&mut takes) {
+        let Some(function) = named(part.name()) else { continue };
         let before = report.count();
-        time_scale_signature(&time_scale.sig, &shape, report);
-        keep(time_scale, before, report);
+        let stated = signature::stated(&function.sig, part, &shape, report);
+        *takes = Some(stated.takes);
+        input = input.or(stated.input);
+        constraints = constraints.or(stated.result);
+        let has_right_signature = report.count() == before;
+        bodies.push(Body { function: function.clone(), has_right_signature });
     }
-    let timed =
-        Timed { lagrangian: of_lagrangian, rayleigh: of_rayleigh.unwrap_or_default(), force: of_force };
-    let generated = if input.is_some() { Some("driven") } else { timed.any().then_some("at_time") };
+    let degrees = |length| Degrees { length, system: source.name().clone() };
+    let system = System {
+        input: input.map(degrees),
+        constraints: constraints.map(degrees),
+        ..of_shape(source, source.name(), shape, options, (takes, bodies))
+    };
+    let generated =
+        if system.input.is_some() { Some("driven") } else { system.is_timed().then_some("at_time") };
     if let Some(taken) = generated.and_then(named) {
         report.at(&taken.sig.ident, Mistake::GeneratedFunction(taken.sig.ident.to_string()));
     }
-    Some(System {
-        source,
-        name: source.name().clone(),
-        degrees: shape.degrees,
-        scalar: shape.scalar,
-        rules: options.rules.clone(),
-        engine: options.engine,
-        bodies,
-        rayleigh: arguments,
-        has_force: force.is_some(),
-        has_time_scale: time_scale.is_some(),
-        input: input.map(|length| Degrees { length, system: source.name().clone() }),
-        timed,
-        parameters: options.parameters.clone(),
-        second: options.second,
-        lanes: options.lanes.clone(),
-        is_fused: options.fused.is_some(),
-    })
+    Some(system)
 }
 
 fn free_function<'a>(
@@ -116,20 +84,17 @@ fn free_function<'a>(
     let shape = shape_of(parameters[0].1, "q", &function.name, report)?;
     same_shape(parameters[1].1, "v", &shape, report);
     owned_parameters(&fields, report);
-    let rayleigh = match result(signature) {
-        Some(Type::Tuple(pair))
-            if pair.elems.len() == 2 && pair.elems.iter().all(|ty| is(ty, &shape.scalar)) =>
-        {
-            Some(RayleighArguments::ConfigurationAndVelocity)
-        }
-        Some(ty) if is(ty, &shape.scalar) => None,
+    let is_scalar = |ty: &Type| is(ty, &shape.scalar);
+    let has_rayleigh = match result(signature) {
+        Some(Type::Tuple(pair)) if pair.elems.len() == 2 && pair.elems.iter().all(is_scalar) => true,
+        Some(ty) if is_scalar(ty) => false,
         _ => {
             let scalar = shape.scalar.to_string();
             report.at(&result_tokens(signature), Mistake::FunctionReturns { scalar });
-            None
+            false
         }
     };
-    Some(function_system(source, function, shape, options, rayleigh, report.count() == before))
+    Some(function_system(source, function, shape, options, has_rayleigh, report.count() == before))
 }
 
 /// The kind of a field, by the number of its components.
@@ -171,7 +136,7 @@ pub fn field<'a>(source: &'a Source, report: &mut Report) -> Option<(System<'a>,
         }
     };
     let has_right_signature = report.count() == before;
-    Some((function_system(source, function, shape, &Options::default(), None, has_right_signature), field))
+    Some((function_system(source, function, shape, &Options::default(), false, has_right_signature), field))
 }
 
 /// Parameters that become fields cannot be references.
@@ -188,7 +153,7 @@ fn function_system<'a>(
     function: &Function,
     shape: Shape,
     options: &Options,
-    rayleigh: Option<RayleighArguments>,
+    has_rayleigh: bool,
     has_right_signature: bool,
 ) -> System<'a> {
     let body = ImplItemFn {
@@ -198,22 +163,38 @@ fn function_system<'a>(
         sig: function.item.sig.clone(),
         block: (*function.item.block).clone(),
     };
+    let both = Part::Lagrangian.entry().takes;
+    let takes = Part::ALL.map(|part| match part {
+        Part::Lagrangian => Some(both),
+        Part::Rayleigh => has_rayleigh.then_some(both),
+        _ => None,
+    });
+    let bodies = vec![Body { function: body, has_right_signature }];
+    of_shape(source, &function.name, shape, options, (takes, bodies))
+}
+
+/// The system with these functions, without an input.
+fn of_shape<'a>(
+    source: &'a Source,
+    name: &Ident,
+    shape: Shape,
+    options: &Options,
+    (takes, bodies): ([Option<Arguments>; Part::ALL.len()], Vec<Body>),
+) -> System<'a> {
     System {
         source,
-        name: function.name.clone(),
+        name: name.clone(),
         degrees: shape.degrees,
         scalar: shape.scalar,
         rules: options.rules.clone(),
         engine: options.engine,
-        bodies: vec![Body { function: body, has_right_signature }],
-        rayleigh,
-        has_force: false,
-        has_time_scale: false,
+        bodies,
+        takes,
         input: None,
-        timed: Timed::default(),
+        constraints: None,
         parameters: options.parameters.clone(),
         second: options.second,
         lanes: options.lanes.clone(),
-        is_fused: options.fused.is_some(),
+        fused: options.fused.clone(),
     }
 }

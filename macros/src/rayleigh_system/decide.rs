@@ -6,7 +6,7 @@ use super::dual::rewrite;
 use super::dual::{self, Twins};
 use super::lower::{self, Refusal};
 use super::model::{Engine, Runtime, System};
-use super::{joint, lanes, parameters};
+use super::{constraints, joint, lanes, parameters};
 
 /// Bodies of at most as many expressions are lowered where rewriting them is doubtful: what stands in loops
 /// and calls is then written out once for each.
@@ -31,6 +31,7 @@ pub fn engine(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Dec
         return Decision::Refused;
     }
     lanes::check(system, report);
+    constraints::check(system, report);
     match system.engine {
         Engine::NumDual => by_duals(system, report),
         Engine::Auto if !asks_for_code(system) => by_either(system, runtime, report),
@@ -38,10 +39,11 @@ pub fn engine(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Dec
     }
 }
 
-/// Whether derivatives by parameters are asked for, code on lanes or fused sums: dual numbers have none of
-/// them.
+/// Whether derivatives by parameters are asked for, code on lanes or fused sums, or constraints hold the
+/// system: dual numbers have none of them.
 fn asks_for_code(system: &System<'_>) -> bool {
-    !system.parameters.is_empty() || system.lanes.words().next().is_some() || system.is_fused
+    let is_asked = !system.parameters.is_empty() || system.lanes.words().next().is_some();
+    is_asked || system.fused.is_some() || system.constraints.is_some()
 }
 
 /// `derivatives = auto`: written out where they can be.
@@ -87,6 +89,7 @@ fn expansion(system: &System<'_>, report: &mut Report) -> Result<Decision, Refus
         Err(_) => parameters::check_unread(system, report),
     }
     let lowered = lowered?;
+    constraints::check_lowered(system, &lowered, report);
     if !is_sound {
         return Ok(Decision::Refused);
     }

@@ -3,6 +3,7 @@
 //! Rust is written of it by [`write`](super::write) alone, and a tape can run it as it is.
 
 mod cancelling;
+mod constraints;
 mod derivatives;
 mod directions;
 mod entries;
@@ -23,7 +24,8 @@ use syn::Ident;
 use super::differentiate::{Derivatives, Differentiation, Gradient};
 use super::graph::{Graph, MOST_OPERATIONS, Node, Operation, Taken};
 use super::lower::{Length, Load, Lowered, Refusal};
-use super::model::{Home, Part, System};
+use super::model::{Home, System};
+use super::parts::Part;
 pub use super::rules::Points;
 use super::structure::{self, Differentiated, Findings, Terms};
 pub use kernel::{Explicit, Kernel};
@@ -80,13 +82,14 @@ pub fn functions(system: &System<'_>, lowered: Lowered) -> Result<Derived, Refus
         rayleigh,
         force,
         time_scale,
+        constraints,
         functions: run,
         of_arrays,
         bindings,
         heaviest,
     } = lowered;
     let written = graph.len();
-    let components = force.iter().flatten().copied();
+    let components = force.iter().chain(&constraints).flatten().copied();
     let roots: Vec<_> =
         [lagrangian].into_iter().chain(rayleigh).chain(components).chain(time_scale).collect();
     let of_types = [(system.scalar.clone(), Taken::Number), (format_ident!("bool"), Taken::Truth)]
@@ -100,6 +103,9 @@ pub fn functions(system: &System<'_>, lowered: Lowered) -> Result<Derived, Refus
     }
     functions.extend(force.map(|components| deriving.force(components)).transpose()?);
     functions.extend(time_scale.map(|root| deriving.time_scale(root)).transpose()?);
+    if let Some(constraints) = &constraints {
+        functions.extend(deriving.constraints(constraints)?);
+    }
     let driven = force.filter(|_| system.input.is_some());
     functions.extend(driven.map(|components| deriving.by_input(components)).transpose()?);
     functions.extend(deriving.all_by_parameters()?);

@@ -80,6 +80,10 @@ pub enum Mistake {
     RepeatedRule(String),
     NoRule,
     JointRule { rule: String, lacks: &'static str },
+    Constrained { lacks: &'static str },
+    ConstraintCount { constraints: usize, coordinates: usize },
+    EqualConstraints { other: usize },
+    ConstraintWithoutCoordinate,
     UnknownEngine(String),
     UnknownOrder,
     UnknownLanes,
@@ -191,6 +195,11 @@ impl Display for Mistake {
             Self::UnknownRule(rule) => write!(f, "unknown rule `{rule}`; the rules are `midpoint`, `trapezoidal`, `gauss`, `fitted`, `fitted_trapezoidal` and `one_sided`; one of your own is not listed: `system.by(Quadrature(rule), h)` steps by it"),
             Self::RepeatedRule(rule) => write!(f, "rule `{rule}` is listed twice; remove one"),
             Self::JointRule { rule, lacks } => write!(f, "`rule = {rule}` {lacks}; use `midpoint`, `trapezoidal` or `gauss`"),
+            Self::Constrained { lacks } => write!(f, "constraints {lacks}"),
+            Self::ConstraintCount { constraints: 0, .. } => f.write_str("there is no constraint in the array; remove the function"),
+            Self::ConstraintCount { constraints, coordinates } => write!(f, "{constraints} constraints on {coordinates} coordinates leave no motion; write fewer"),
+            Self::EqualConstraints { other } => write!(f, "this is constraint {other} once more, counted from 0; remove it"),
+            Self::ConstraintWithoutCoordinate => f.write_str("no coordinate stands in this constraint: it holds nothing; remove it, or write it in `q`"),
             Self::NoRule => f.write_str("no rule is listed; write at least one, or leave the option out for `midpoint`"),
             Self::UnknownEngine(engine) if engine.is_empty() => f.write_str("write one of `derivatives = auto`, `expanded`, `num_dual`"),
             Self::UnknownEngine(engine) => write!(f, "unknown engine `{engine}`; write `derivatives = auto`, `expanded` or `num_dual`"),
@@ -291,6 +300,8 @@ pub enum Note {
     DualNumbers { system: String, reason: String },
     /// A step by dual numbers would overflow the stack.
     TooManyForDualNumbers { most: usize },
+    /// Each fused sum is a call.
+    FusedByCalls,
 }
 
 impl Display for Note {
@@ -303,6 +314,9 @@ impl Display for Note {
             Self::TooManyForDualNumbers { most } => write!(
                 f,
                 "with more than {most} coordinates dual numbers can overflow the stack of a thread; have the derivatives written out: `derivatives = expanded` says what stands in the way"
+            ),
+            Self::FusedByCalls => f.write_str(
+                "this build is for processors without an instruction for fused sums: each is the call of a function, and a step takes up to 9 times as long. Build for your processor, `RUSTFLAGS=\"-C target-cpu=native\"`, or with `-C target-feature=+fma`; or leave the option out"
             ),
         }
     }

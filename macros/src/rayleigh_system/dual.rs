@@ -14,7 +14,8 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::lower::{Lowered, Refusal};
-use super::model::{Part, RayleighArguments, Source, System};
+use super::model::{Source, System};
+use super::parts::Part;
 use super::structure::{Engine, Structure};
 use super::write::item::{PlainFields, as_written, conditions};
 use super::write::{self, EngineFunctions, view};
@@ -81,13 +82,13 @@ pub fn system(
 
 /// The functions that the runtime's traits ask for, by num-dual.
 fn engine(system: &System<'_>, refusal: Option<Refusal>) -> EngineFunctions {
-    let both = RayleighArguments::ConfigurationAndVelocity;
     EngineFunctions {
         structure: Structure { engine: Engine::NumDual(refusal), findings: None },
-        lagrangian: derivatives::of_function(system, Part::Lagrangian, both),
-        rayleigh: system.rayleigh.map(|point| derivatives::of_function(system, Part::Rayleigh, point)),
-        force: system.has_force.then(|| derivatives::of_force(system)),
-        time_scale: system.has_time_scale.then(|| derivatives::of_time_scale(system)),
+        lagrangian: derivatives::of_function(system, Part::Lagrangian),
+        rayleigh: system.has(Part::Rayleigh).then(|| derivatives::of_function(system, Part::Rayleigh)),
+        force: system.has(Part::Force).then(|| derivatives::of_force(system)),
+        time_scale: system.has(Part::TimeScale).then(|| derivatives::of_time_scale(system)),
+        constraints: None,
         by_input: system.input.as_ref().map(|input| derivatives::by_input(system, input)),
         cancelling_terms: system
             .rules
@@ -95,8 +96,8 @@ fn engine(system: &System<'_>, refusal: Option<Refusal>) -> EngineFunctions {
             .then(|| derivatives::cancelling_terms(system)),
         places: [None, None],
         stages: None,
-        stages_in_lanes: None,
         kernels: system.rules.of_displacement.iter().map(|_| None).collect(),
+        in_lanes: None,
         by_parameters: None,
         second_order: system.second.then(|| derivatives::along_vectors(system)),
         names: vec!["Direction", "Variations", "dual"],

@@ -193,6 +193,14 @@ fn stubs(
             }
         }
     });
+    let gathered = lanes.words().next().map(|_| {
+        quote! {
+            impl ::dalembert::generated::Gathered<#n> for #name {
+                type Fields<const W: usize> = ();
+                fn fields<const W: usize>(_: [&Self; W]) {}
+            }
+        }
+    });
     let forced_in_lanes = lanes.gauss.is_some().then(|| gauss_stubs(name, scalar, n));
     let midpoint_in_lanes = lanes.midpoint.is_some().then(|| midpoint_stubs(name, scalar, n));
     // The rule of the lanes, where it is what is missing.
@@ -222,12 +230,14 @@ fn stubs(
             #forced
             #offered
             #explicit
+            #gathered
             #forced_in_lanes
             #midpoint_in_lanes
             #(
                 impl ::dalembert::generated::Fused<::dalembert::generated::#rules, #n> for #name {
                     type Matrix = ::dalembert::nalgebra::SMatrix<#scalar, #n, #n>;
                     type Memory = ::dalembert::generated::VelocityHistory<#scalar, #n>;
+                    type Border = ::dalembert::generated::Free;
                     fn step_kernel(&self, _: &::dalembert::generated::Segment<#scalar, #n>) -> ::dalembert::generated::StepKernel<#scalar, #n> { ::core::unreachable!() }
                     fn momenta(&self, _: &::dalembert::generated::Segment<#scalar, #n>) -> ::dalembert::generated::Momenta<#scalar, #n> { ::core::unreachable!() }
                 }
@@ -248,8 +258,6 @@ fn explicit_stubs(
     let in_lanes = is_in_lanes.then(|| {
         quote! {
             impl ::dalembert::generated::ExplicitInLanes<#n> for #name {
-                type Fields<const W: usize> = ();
-                fn fields<const W: usize>(_: [&Self; W]) {}
                 fn velocity_momenta_in_lanes<const W: usize>(_: &(), _: &#members, _: #scalar) -> [#members; 2] { ::core::unreachable!() }
                 fn configuration_force_in_lanes<const W: usize>(_: &(), _: &#members) -> #members { ::core::unreachable!() }
             }
@@ -270,8 +278,6 @@ fn midpoint_stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream) -> T
     let members = quote!(::dalembert::generated::MemberVector<#scalar, #n, W>);
     quote! {
         impl ::dalembert::generated::DiscreteInLanes<::dalembert::generated::Midpoint, #n> for #name {
-            type Fields<const W: usize> = ();
-            fn fields<const W: usize>(_: [&Self; W]) {}
             fn step_kernel_in_lanes<const W: usize>(_: &(), _: &#members, _: &#members, _: #scalar) -> (#members, [#members; #n]) { ::core::unreachable!() }
             fn momenta_in_lanes<const W: usize>(_: &(), _: &#members, _: &#members, _: #scalar) -> [#members; 2] { ::core::unreachable!() }
         }
@@ -283,10 +289,8 @@ fn gauss_stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream) -> Toke
     let members = quote!(::dalembert::generated::MemberVector<#scalar, #n, W>);
     quote! {
         impl ::dalembert::generated::ForcedLagrangianInLanes<#n> for #name {
-            type Fields<const W: usize> = ();
             type Kept<const W: usize> = ();
             type AnchorsInLanes<const W: usize> = ();
-            fn fields<const W: usize>(_: [&Self; W]) {}
             fn rates_in_lanes<const W: usize>(_: &(), _: &mut (), _: &#members, _: &#members) -> (#members, ()) { ::core::unreachable!() }
             fn corrections_in_lanes<const W: usize>(_: &(), _: &(), _: &#members, _: &#members) -> [#members; 2] { ::core::unreachable!() }
         }

@@ -6,6 +6,7 @@ use super::differentiate::{Derivatives, Differentiation};
 use super::graph::{Graph, Node, Operation};
 use super::lower::Lowered;
 use super::model::{Engine, System};
+use super::parts::Part;
 use super::rules::Joint;
 
 /// Reports what the system lacks for each such rule. `lowered` is nothing where derivatives are not written
@@ -23,10 +24,10 @@ fn lacks(rule: Joint, system: &System<'_>, lowered: Option<&Lowered>) -> Option<
     if let Some(lacks) = asked_too_much(system) {
         return Some(lacks);
     }
-    if system.rayleigh.is_none() {
+    if !system.has(Part::Rayleigh) {
         return Some("needs a Rayleigh function, and there is none");
     }
-    if system.has_force {
+    if system.has(Part::Force) {
         return Some("takes no general force");
     }
     if system.engine == Engine::NumDual {

@@ -38,7 +38,8 @@ use quote::{ToTokens, format_ident, quote};
 use syn::Ident;
 
 use super::graph::{Graph, Node, Operation};
-use super::model::{Part, RayleighArguments, Source, System};
+use super::model::{Source, System};
+use super::parts::{Part, Returns};
 use class::Classes;
 pub use load::{Length, Load};
 pub use refusal::Refusal;
@@ -66,6 +67,8 @@ pub struct Lowered {
     pub force: Option<Vec<Node>>,
     /// σ, the time scale.
     pub time_scale: Option<Node>,
+    /// The constraints, one by one.
+    pub constraints: Option<Vec<Node>>,
     /// The functions of the block that were run.
     pub functions: Vec<Ident>,
     /// Methods taken for those of slices, each called on an array of so many numbers: rustc has to agree.
@@ -121,56 +124,53 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
         Value::Sequence((0..m).map(|i| Value::Real(lowering.graph.node(Operation::Input(i)))).collect())
     });
     // A local of the generated function.
-    let t = system.timed.any().then(|| Value::Real(lowering.graph.time()));
-    let timed = |part| t.clone().filter(|_| system.timed.of(part));
+    let t = system.is_timed().then(|| Value::Real(lowering.graph.time()));
 
-    let (lagrangian, rayleigh, force, time_scale) = match system.source {
+    let mut values = [const { None }; Part::ALL.len()];
+    match system.source {
         Source::Block(_) => {
-            let arguments = [q.clone(), v.clone()].into_iter().chain(timed(Part::Lagrangian)).collect();
-            let lagrangian = lowering.root("lagrangian", arguments)?;
-            let rayleigh = match system.rayleigh {
-                None => None,
-                Some(arguments) => {
-                    let q = (arguments == RayleighArguments::ConfigurationAndVelocity).then(|| q.clone());
-                    let arguments = q.into_iter().chain([v.clone()]).chain(timed(Part::Rayleigh)).collect();
-                    Some(lowering.root("rayleigh", arguments)?)
-                }
-            };
-            let force = if system.has_force {
-                let arguments = [q.clone(), v].into_iter().chain(u).chain(timed(Part::Force)).collect();
-                Some(lowering.root("force", arguments)?)
-            } else {
-                None
-            };
-            let time_scale =
-                if system.has_time_scale { Some(lowering.root("time_scale", vec![q])?) } else { None };
-            (lagrangian, rayleigh, force, time_scale)
+            let all = [Some(q), Some(v), u, t];
+            for (part, value) in Part::ALL.into_iter().zip(&mut values) {
+                let Some(takes) = system.takes(part) else { continue };
+                let arguments = takes.choose(all.clone()).flatten().collect();
+                *value = Some(lowering.root(part.name(), arguments)?);
+            }
         }
         Source::Function(function) => {
             let fields = function.fields().map(|(name, _)| Value::Written(Written::leaf(quote!(self.#name))));
             let arguments = [q, v].into_iter().chain(fields).collect();
             let signature = &function.item.sig;
             let result = lowering.call(&signature.ident, signature, &function.item.block, arguments)?;
-            match (system.rayleigh, result) {
-                (Some(_), Value::Tuple(mut pair)) if pair.len() == 2 => {
-                    let rayleigh = pair.pop();
-                    (pair.remove(0), rayleigh, None, None)
+            match result {
+                Value::Tuple(pair) if system.has(Part::Rayleigh) && pair.len() == 2 => {
+                    values.iter_mut().zip(pair).for_each(|(value, of_pair)| *value = Some(of_pair));
                 }
-                (_, value) => (value, None, None, None),
+                result => values[Part::Lagrangian as usize] = Some(result),
             }
         }
-    };
+    }
     let at = &system.name;
-    let lagrangian = lowering.scalar(at, lagrangian)?;
-    let rayleigh = rayleigh.map(|value| lowering.scalar(at, value)).transpose()?;
-    let force = match force {
-        Some(Value::Sequence(components)) => {
-            Some(components.into_iter().map(|value| lowering.scalar(at, value)).collect::<Result<Vec<_>>>()?)
-        }
-        Some(_) => return refuse(at, "the force is not an array whose entries can be told apart"),
-        None => None,
+    let mut roots = [const { None }; Part::ALL.len()];
+    for (part, (value, roots)) in Part::ALL.into_iter().zip(values.into_iter().zip(&mut roots)) {
+        let Some(value) = value else { continue };
+        let components = match (part.entry().returns, value) {
+            (Returns::Number, number) => vec![number],
+            (Returns::Covector | Returns::Numbers, Value::Sequence(components)) => components,
+            (Returns::Covector, _) => {
+                return refuse(at, "the force is not an array whose entries can be told apart");
+            }
+            (Returns::Numbers, _) => {
+                return refuse(at, "the constraints are not an array whose entries can be told apart");
+            }
+        };
+        let components = components.into_iter().map(|component| lowering.scalar(at, component));
+        *roots = Some(components.collect::<Result<Vec<_>>>()?);
+    }
+    let [lagrangian, rayleigh, force, time_scale, constraints] = roots;
+    let number = |roots: Option<Vec<Node>>| roots.and_then(|roots| roots.first().copied());
+    let Some(lagrangian) = number(lagrangian) else {
+        return refuse(at, "there is no Lagrangian");
     };
-    let time_scale = time_scale.map(|value| lowering.scalar(at, value)).transpose()?;
     lowering.integers.settled()?;
     let bindings = lowering.bindings.into_values().collect();
     let (functions, of_arrays, heaviest) = (lowering.functions, lowering.of_arrays, lowering.heaviest);
@@ -179,9 +179,10 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
         n,
         m,
         lagrangian,
-        rayleigh,
+        rayleigh: number(rayleigh),
         force,
-        time_scale,
+        time_scale: number(time_scale),
+        constraints,
         functions,
         of_arrays,
         bindings,

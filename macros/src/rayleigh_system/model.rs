@@ -4,6 +4,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
 use syn::{Expr, ExprLit, FnArg, Ident, ImplItem, ImplItemFn, ItemFn, Lit, Pat, Type, Visibility};
 
+use super::parts::{Arguments, Part};
 use super::rules::Rules;
 use super::syntax::{is_integer, with_self_named};
 
@@ -106,24 +107,22 @@ pub struct System<'a> {
     pub rules: Rules,
     /// The engine that the attribute asks for.
     pub engine: Engine,
-    /// L, R, f and σ.
+    /// The functions that it has of those that the attribute knows.
     pub bodies: Vec<Body>,
-    pub rayleigh: Option<RayleighArguments>,
-    pub has_force: bool,
-    /// Whether runs can follow a time scale σ(q).
-    pub has_time_scale: bool,
-    /// The number of entries of the force's input u, if it takes one.
+    /// The arguments of each part, in the order of `Part::ALL`, where there is one.
+    pub takes: [Option<Arguments>; Part::ALL.len()],
+    /// The number of entries of the input u, if there is one.
     pub input: Option<Degrees>,
-    /// Which functions take the time t.
-    pub timed: Timed,
+    /// The number of constraints, if there are any.
+    pub constraints: Option<Degrees>,
     /// Fields that the step is differentiated by, as listed: `m`, `c[0]`.
     pub parameters: Vec<Expr>,
     /// Whether the step is differentiated twice.
     pub second: bool,
     /// Which steps of several members at once are asked for.
     pub lanes: Lanes,
-    /// Whether a product and the sum that it stands in are rounded once.
-    pub is_fused: bool,
+    /// Whether a product and the sum that it stands in are rounded once, by its word.
+    pub fused: Option<Ident>,
 }
 
 /// The steps of several members at once that are asked for, each by its word.
@@ -144,47 +143,6 @@ impl Lanes {
     }
 }
 
-/// L, R or f.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Part {
-    Lagrangian,
-    Rayleigh,
-    Force,
-}
-
-impl Part {
-    /// The name of the function.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Lagrangian => "lagrangian",
-            Self::Rayleigh => "rayleigh",
-            Self::Force => "force",
-        }
-    }
-}
-
-/// Which functions take the time t.
-#[derive(Clone, Copy, Default)]
-pub struct Timed {
-    pub lagrangian: bool,
-    pub rayleigh: bool,
-    pub force: bool,
-}
-
-impl Timed {
-    pub fn any(self) -> bool {
-        self.lagrangian || self.rayleigh || self.force
-    }
-
-    pub fn of(self, part: Part) -> bool {
-        match part {
-            Part::Lagrangian => self.lagrangian,
-            Part::Rayleigh => self.rayleigh,
-            Part::Force => self.force,
-        }
-    }
-}
-
 /// The type that one of the runtime's traits is implemented for.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Home {
@@ -195,9 +153,28 @@ pub enum Home {
 }
 
 impl System<'_> {
+    /// The arguments of a part, if there is one.
+    pub fn takes(&self, part: Part) -> Option<Arguments> {
+        self.takes[part as usize]
+    }
+
+    pub fn has(&self, part: Part) -> bool {
+        self.takes(part).is_some()
+    }
+
+    /// Whether a part that there is takes the time.
+    pub fn takes_time(&self, part: Part) -> bool {
+        self.takes(part).is_some_and(|takes| takes.t)
+    }
+
+    /// Whether any part takes the time.
+    pub fn is_timed(&self) -> bool {
+        Part::ALL.into_iter().any(|part| self.takes_time(part))
+    }
+
     /// Whether u or t occurs: then a step is that of a view.
     pub fn has_view(&self) -> bool {
-        self.input.is_some() || self.timed.any()
+        self.input.is_some() || self.is_timed()
     }
 
     /// M as a const generic argument, 0 where there is no input.
@@ -205,16 +182,19 @@ impl System<'_> {
         self.input.as_ref().map_or_else(|| quote!(0), |input| input.times(1))
     }
 
+    /// The number of constraints as a const generic argument, 0 where there are none.
+    pub fn constraint_count(&self) -> TokenStream {
+        self.constraints.as_ref().map_or_else(|| quote!(0), |count| count.times(1))
+    }
+
     /// P as a const generic argument.
     pub fn parameter_count(&self) -> Literal {
         Literal::usize_unsuffixed(self.parameters.len())
     }
 
-    /// The parts that the system has, of L, R and f.
-    pub fn parts(&self) -> impl Iterator<Item = Part> + use<> {
-        let rayleigh = self.rayleigh.map(|_| Part::Rayleigh);
-        let force = self.has_force.then_some(Part::Force);
-        [Part::Lagrangian].into_iter().chain(rayleigh).chain(force)
+    /// The terms of the equations of motion that the system has, of L, R and f.
+    pub fn terms(&self) -> impl Iterator<Item = Part> {
+        Part::ALL.into_iter().filter(|part| part.entry().is_term && self.has(*part))
     }
 
     /// Where L_d, f_d and the step stand.
@@ -222,22 +202,17 @@ impl System<'_> {
         if self.has_view() { Home::View } else { Home::System }
     }
 
-    /// Where L, R or f stands: on the system wherever neither u nor t is needed.
+    /// Where a part stands: on the system wherever neither u nor t is needed.
     pub fn home_of(&self, part: Part) -> Home {
+        let is_timed = |part| self.takes_time(part);
         let needs_view = match part {
-            Part::Lagrangian => self.timed.lagrangian,
-            Part::Rayleigh => self.timed.lagrangian || self.timed.rayleigh,
-            Part::Force => self.has_view(),
+            Part::Lagrangian => is_timed(part),
+            Part::Rayleigh => is_timed(Part::Lagrangian) || is_timed(part),
+            Part::Force | Part::TimeScale => self.has_view(),
+            Part::Constraints => false,
         };
         if needs_view { Home::View } else { Home::System }
     }
-}
-
-/// The arguments of the Rayleigh function, but for the time.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum RayleighArguments {
-    Velocity,
-    ConfigurationAndVelocity,
 }
 
 /// A function to differentiate, as the user wrote it.

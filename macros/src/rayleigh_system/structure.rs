@@ -16,7 +16,8 @@ pub use degree::Degrees;
 use super::differentiate::{Derivatives, Gradient};
 use super::graph::{Graph, Node, Operation};
 use super::lower::Refusal;
-use super::model::{Part, System};
+use super::model::System;
+use super::parts::Part;
 use super::rules::{Pairs, Points, Rule};
 
 /// The engine that makes the derivatives, and why.
@@ -103,7 +104,7 @@ pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>)
     let Terms { lagrangian, rayleigh, force } = terms;
     let damping = match rayleigh {
         None => Damping::Absent,
-        Some(_) if system.timed.of(Part::Rayleigh) => Damping::Unknown,
+        Some(_) if system.takes_time(Part::Rayleigh) => Damping::Unknown,
         Some(r) if degrees.in_velocity(r.root) > 2 => Damping::Nonlinear,
         Some(r) if contains(graph, r.root, |operation| matches!(operation, Operation::Coordinate(_))) => {
             Damping::LinearByConfiguration
@@ -192,7 +193,7 @@ pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>)
         constant_mass_matrix: degrees.in_velocity(lagrangian.root) <= 2 && is_constant(&mass),
         quadratic_lagrangian: degrees.joint(lagrangian.root) <= 2,
         separable_lagrangian: degrees.is_separable(lagrangian.root),
-        fused: system.is_fused,
+        fused: system.fused.is_some(),
         timed_momenta,
         damping,
         cyclic: cyclic.collect(),

@@ -1,11 +1,14 @@
 //! The traits of the runtime, implemented for a system with the functions that either engine makes: each
 //! function below writes one `impl`, and the comment above each quotation shows what it expands to.
 
+mod constrained;
 mod continuous;
 pub mod expanded;
 mod fused;
 mod imports;
+mod in_lanes;
 pub mod item;
+pub mod notice;
 mod on_request;
 pub mod view;
 
@@ -16,6 +19,7 @@ use syn::Ident;
 use super::model::System;
 use super::structure::{Engine, Structure};
 pub use fused::{Kernel, Memory};
+pub use in_lanes::LaneFunctions;
 use item::PlainFields;
 
 /// The functions that the runtime's traits ask for, as an engine writes them.
@@ -30,6 +34,8 @@ pub struct EngineFunctions {
     pub force: Option<TokenStream>,
     /// σ and its gradient.
     pub time_scale: Option<TokenStream>,
+    /// The gradients and the curvature of the constraints.
+    pub constraints: Option<TokenStream>,
     /// The derivative of f by the input.
     pub by_input: Option<TokenStream>,
     /// Sizes of the terms that cancel in the equations of motion, where some can.
@@ -38,10 +44,10 @@ pub struct EngineFunctions {
     pub places: [Option<TokenStream>; 2],
     /// The equations at the stages of Gauss rules, where they are not those that the runtime makes.
     pub stages: Option<TokenStream>,
-    /// The stages' equations of several members at once.
-    pub stages_in_lanes: Option<TokenStream>,
     /// The kernel of each rule of displacement, where the engine writes one.
     pub kernels: Vec<Option<Kernel>>,
+    /// The functions of several members at once, if they are asked for.
+    pub in_lanes: Option<LaneFunctions>,
     /// Derivatives by parameters, if they are asked for.
     pub by_parameters: Option<TokenStream>,
     /// Second derivatives of the step, if they are asked for.
@@ -73,22 +79,18 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
         &functions.places,
         &functions.plain,
     );
-    let rayleigh = system
-        .rayleigh
-        .zip(functions.rayleigh)
-        .map(|(arguments, derivatives)| continuous::rayleigh(system, arguments, derivatives));
+    let rayleigh = functions.rayleigh.map(|derivatives| continuous::rayleigh(system, derivatives));
     let force = functions.force.map(|derivatives| continuous::force(system, derivatives));
     let time_scale = functions.time_scale.map(|function| continuous::time_scale(system, function));
+    let constrained = functions.constraints.map(|functions| constrained::constrained(system, functions));
     let acting = continuous::acting_force(system, functions.cancelling_terms);
-    let forced = system
-        .rules
-        .gauss
-        .then(|| continuous::forced_lagrangian(system, functions.stages, functions.stages_in_lanes));
+    let forced = system.rules.gauss.then(|| continuous::forced_lagrangian(system, functions.stages));
     let driven = functions.by_input.and_then(|by_input| on_request::driven(system, by_input));
     let by_parameters = functions.by_parameters.map(|functions| on_request::by_parameters(system, functions));
     let second_order = functions.second_order.map(|functions| on_request::second_order(system, functions));
     let rules = system.rules.of_displacement.iter().zip(functions.kernels);
     let fused = rules.map(|(&rule, kernel)| fused::fused(system, rule, (is_expanded, may_cancel), kernel));
+    let in_lanes = functions.in_lanes.map(|functions| in_lanes::in_lanes(system, functions));
     let offered_methods = fused::offered_methods(system, is_explicit);
     let (bindings, plain) = (item::are_bindings(&functions.bindings), functions.plain.implementation);
     let (conditions, quiet) = (item::conditions(system.source), item::quiet());
@@ -107,12 +109,14 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
             #rayleigh
             #force
             #time_scale
+            #constrained
             #acting
             #forced
             #driven
             #by_parameters
             #second_order
             #(#fused)*
+            #in_lanes
             #offered_methods
             #bindings
         };

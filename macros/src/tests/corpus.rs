@@ -1,16 +1,17 @@
-//! The inputs that the fuzzer in `fuzz/` has kept, on any compiler.
+//! The inputs that the fuzzer in `tests/fuzz/` has kept, on any compiler.
 
 use std::fs;
 use std::path::Path;
 
 use crate as pipeline;
 
-#[path = "../../../fuzz/fuzz_targets/macro_tokens/answer.rs"]
+#[path = "../../../tests/fuzz/fuzz_targets/macro_tokens/answer.rs"]
 mod answer;
 
 #[test]
 fn inputs_kept_by_the_fuzzer_are_answered() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("fuzz").join("corpus/macro_tokens.txt");
+    let path =
+        Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("tests").join("fuzz/corpus/macro_tokens.txt");
     let (mut items, mut others) = (0, 0);
     let every = if cfg!(debug_assertions) { 4 } else { 1 };
     // Past a loop of 400 turns, which takes half of all the time.

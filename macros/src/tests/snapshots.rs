@@ -5,6 +5,7 @@
 
 use std::path::Path;
 
+use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::rayleigh_system::{Runtime, differentiable, rayleigh_system};
@@ -185,23 +186,12 @@ fn gauss() {
     let expansion = rayleigh_system(Runtime::STD, quote!(rule = gauss), item.clone());
     assert_snapshot("gauss.rs", &formatted(expansion));
     // In lanes: the same for several members, one stage at a time, in two functions.
-    let expansion =
-        formatted(rayleigh_system(Runtime::STD, quote!(rule = gauss, lanes = gauss), item.clone()));
-    let start =
-        expansion.find("impl ::dalembert::generated::ForcedLagrangianInLanes").expect("it is written");
-    assert_snapshot("cart_in_lanes.rs", &expansion[start..]);
+    assert_snapshot("cart_in_lanes.rs", &of_members(quote!(rule = gauss, lanes = gauss), item.clone()));
     // Its sums rounded with the products in them.
     let fused = quote!(rule = gauss, lanes = gauss, multiply_add = fused);
-    let expansion = formatted(rayleigh_system(Runtime::STD, fused, item.clone()));
-    let start =
-        expansion.find("impl ::dalembert::generated::ForcedLagrangianInLanes").expect("it is written");
-    assert_snapshot("cart_fused_in_lanes.rs", &expansion[start..]);
+    assert_snapshot("cart_fused_in_lanes.rs", &of_members(fused, item.clone()));
     // By the midpoint rule, its equation.
-    let expansion = formatted(rayleigh_system(Runtime::STD, quote!(lanes = midpoint), item.clone()));
-    let start = expansion.find("impl ::dalembert::generated::DiscreteInLanes").expect("it is written");
-    let implementation = &expansion[start..];
-    let end = implementation.find("#[automatically_derived]").expect("others follow");
-    assert_snapshot("cart_at_midpoint_in_lanes.rs", &implementation[..end]);
+    assert_snapshot("cart_at_midpoint_in_lanes.rs", &of_members(quote!(lanes = midpoint), item.clone()));
     // Nothing of it without the rule.
     let other = formatted(rayleigh_system(Runtime::STD, quote!(rule = midpoint), item));
     for word in ["Lanes", "Stages", "ForcedLagrangian", "acting_force"] {
@@ -299,6 +289,14 @@ fn explicit_ring() {
     assert_snapshot("explicit_ring.rs", &formatted(expansion));
 }
 
+/// The traits of several members at once, from the expansion.
+fn of_members(options: TokenStream, item: TokenStream) -> String {
+    let expansion = formatted(rayleigh_system(Runtime::STD, options, item));
+    let start = expansion.find("impl ::dalembert::generated::Gathered").expect("it is written");
+    let end = expansion.find("impl ::dalembert::generated::OffersMethods").unwrap_or(expansion.len());
+    expansion[start..end].trim_end().trim_end_matches("#[automatically_derived]").trim_end().to_owned()
+}
+
 /// Beside its own force, that of several members at once, with their fields and branches.
 #[test]
 fn bead_in_lanes() {
@@ -320,21 +318,37 @@ fn bead_in_lanes() {
     assert_snapshot("bead_in_lanes.rs", &formatted(expansion));
 }
 
+/// The fields that any kind of lanes reads are gathered once, in one order for all.
+#[test]
+fn fields_are_gathered_once() {
+    let item = quote! {
+        impl Bead {
+            fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+                0.5 * self.m * v[0] * v[0] + self.g * q[0].cos()
+            }
+            fn rayleigh(&self, v: [f64; 1]) -> f64 {
+                0.5 * self.r * v[0] * v[0]
+            }
+        }
+    };
+    let gathered = |options| of_members(options, item.clone()).matches("fn fields<").count();
+    assert_eq!(gathered(quote!(rule = [midpoint, trapezoidal, gauss], lanes = explicit)), 1);
+    let all = quote!(rule = [midpoint, trapezoidal, gauss], lanes = [explicit, midpoint, gauss]);
+    assert_eq!(gathered(all.clone()), 1);
+    let text = of_members(all, item.clone());
+    let kinds = ["ExplicitInLanes<1>", "DiscreteInLanes<", "ForcedLagrangianInLanes<1>"];
+    assert!(kinds.iter().all(|kind| text.contains(kind)), "{text}");
+    assert!(
+        text.contains("let [_, g, _, _] = *fields") && text.contains("let [m, _, r, _] = *fields"),
+        "{text}"
+    );
+}
+
 /// The time of each member beside its fields: read by the force of an explicit step, by the rates of a stage,
 /// and handed to what corrects where the mass holds it.
 #[test]
 fn members_with_a_time() {
-    let written = |options, item| {
-        let expansion = formatted(rayleigh_system(Runtime::STD, options, item));
-        let start = ["ExplicitInLanes", "ForcedLagrangianInLanes"]
-            .iter()
-            .find_map(|name| expansion.find(&format!("impl ::dalembert::generated::{name}")))
-            .expect("it is written");
-        let implementation = &expansion[start..];
-        let end = implementation.find("#[automatically_derived]").unwrap_or(implementation.len());
-        implementation[..end].to_owned()
-    };
-    let explicit = written(
+    let explicit = of_members(
         quote!(rule = trapezoidal, lanes = explicit),
         quote! {
             impl Shaken {
@@ -347,7 +361,7 @@ fn members_with_a_time() {
             }
         },
     );
-    let gauss = written(
+    let gauss = of_members(
         quote!(rule = gauss, lanes = gauss),
         quote! {
             impl Growing {

@@ -76,6 +76,8 @@ fn name(routine: &Routine) -> (&'static str, String) {
         Of::Variations => ("", "lagrangian_variations".to_owned()),
         Of::ForceDerivatives => ("Force", "force_derivatives".to_owned()),
         Of::TimeScaleGradient => ("", "time_scale_gradient".to_owned()),
+        Of::ConstraintGradients => ("Constrained", "constraint_gradients".to_owned()),
+        Of::ConstraintCurvature => ("Constrained", "constraint_curvature".to_owned()),
         Of::ForceByInput => ("", "force_by_input".to_owned()),
         Of::ByParameters(part) => ("", format!("{}_by_parameters", part.name())),
         Of::Along(part) => ("", format!("{}_along", part.name())),
@@ -98,7 +100,7 @@ fn name(routine: &Routine) -> (&'static str, String) {
 fn numbers(random: &mut Random) -> HashMap<String, Value> {
     let mut number = || random.unit() * 2.4 - 0.8;
     let mut names = HashMap::new();
-    for name in ["q", "v", "q0", "p", "momenta", "a", "b", "vector"] {
+    for name in ["q", "v", "q0", "p", "momenta", "a", "b", "vector", "lambda"] {
         names.insert(name.to_owned(), Value::vector(&[number(), number()]));
     }
     let of_directions = ["minus.first", "minus.second", "plus.first", "plus.second"];
@@ -159,8 +161,7 @@ fn by_tape(derived: &Derived, routine: &Routine, given: &HashMap<String, Value>)
 fn by_text(all: &[Written], written: &Written, sizes: [usize; 2], given: &HashMap<String, Value>) -> Value {
     let read = |name: &str| match name {
         "fields" => {
-            let of_members =
-                all.iter().find(|other| other.of == written.of && other.function.sig.ident == name);
+            let of_members = all.iter().find(|other| other.function.sig.ident == name);
             by_text(all, of_members.expect("the function that gathers fields"), sizes, given)
         }
         "kept" => {
@@ -190,7 +191,7 @@ fn written_of<'a>(all: &'a [Written], routine: &Routine) -> Option<&'a Written> 
         // The view hands some on to the system.
         let body = written.function.block.to_token_stream().to_string();
         let is_own = own == name || own.strip_suffix("_in_time") == Some(&name);
-        is_own && written.of.contains(of) && !body.contains("(self . system , q , v")
+        is_own && written.of.contains(of) && !body.contains("(self . system , q")
     })
 }
 
@@ -207,6 +208,7 @@ fn agree(
     let matrix = match routine.of {
         Of::ByParameters(part) if part.name() != "force" => count / 2,
         Of::ByParameters(_) | Of::ForceByInput => count,
+        Of::ConstraintGradients => 2,
         _ => 4,
     };
     let tape = by_tape(derived, routine, &given);
@@ -261,7 +263,7 @@ fn the_text_computes_what_the_data_says() {
         *seen.entry(written.function.sig.ident.to_string()).or_insert(0) += 1;
     });
     println!("{seen:?}");
-    assert!(seen.len() == 28 && seen.values().sum::<i32>() > 10 * count as i32, "{seen:?}");
+    assert!(seen.len() == 30 && seen.values().sum::<i32>() > 10 * count as i32, "{seen:?}");
 }
 
 /// The control: one name for two temporaries, or two outputs in each other's place, is found.

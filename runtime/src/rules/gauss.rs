@@ -36,7 +36,6 @@ use crate::step::{
 use crate::system::ForcedLagrangian;
 use coefficients::Coefficients;
 pub use history::StageHistory;
-pub use in_lanes::StagesInLanes;
 pub(crate) use problem::Solver;
 use problem::{Problem, Solution};
 use segment::SolvedSegment;

@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::parts::Parts;
 use super::{DisplacementRule, Node, SelfAdjoint};
-use crate::step::{Fused, Momenta, Segment, SolvedForVelocity, StepKernel, VelocityHistory};
+use crate::step::{Free, Fused, Momenta, Segment, SolvedForVelocity, StepKernel, VelocityHistory};
 use crate::system::ActingForce;
 
 /// The rule of one's own `Q`, for every system: nodes and weights on the straight line from q0 to q1.
@@ -63,9 +63,16 @@ where
 {
     type Matrix = SMatrix<L::Scalar, N, N>;
     type Memory = VelocityHistory<L::Scalar, N>;
+    type Border = Free;
 
     #[inline]
     fn step_kernel(&self, segment: &Segment<L::Scalar, N>) -> StepKernel<L::Scalar, N> {
+        const {
+            assert!(
+                !L::IS_CONSTRAINED,
+                "`Quadrature` steps a system without constraints; take `Midpoint` or `Trapezoidal`"
+            );
+        }
         let mut kernel = Q::lagrangian_kernel(self, segment);
         if L::HAS_RAYLEIGH {
             kernel = kernel + Q::rayleigh_kernel(&Parts::of(self), segment);

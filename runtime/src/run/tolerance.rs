@@ -244,8 +244,8 @@ impl Method {
     /// or a [`Breach`] or an error says that it is not so. The maxima are over the coordinates and the steps
     /// so far, Δ is the change over a step: w is 1/(mω) for an oscillator, and weighs a momentum like the
     /// coordinate that it moves. The promise rests on an estimate, which random motions have tried: the
-    /// page `docs/error-asked-for.md` counts how often it was kept, passed by more than twice, and where
-    /// a breach comes late or for nothing.
+    /// page `docs/evidence/error-asked-for.md` counts how often it was kept, passed by more than twice, and
+    /// where a breach comes late or for nothing.
     ///
     /// **Choice.** One step of each method, from the start and from the first states of its run, is compared
     /// to two half ones, at steps longer and shorter until the error asked for is met: no error is

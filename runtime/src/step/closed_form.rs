@@ -149,6 +149,9 @@ where
         step: &Step<L::Scalar, N>,
         h: L::Scalar,
     ) -> Result<EquationAt<L::Scalar, N>, StepError> {
+        const {
+            assert!(!L::IS_CONSTRAINED, "steps on constraints have no certificate");
+        }
         let segment = Segment { q0: state.q, v: step.velocity, h };
         let kernel = self.step_kernel(&segment);
         let mass = self.lagrangian_derivatives(&state.q, &step.velocity).d22;

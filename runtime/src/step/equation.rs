@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::numbers::{NewtonMatrix, Scalar};
+use crate::numbers::{NewtonMatrix, Scalar, Singular};
 use crate::step::cause::cause_of;
 use crate::step::{Discrete, Fused, Momenta, Segment, StepError, StepKernel};
 use crate::system::derivatives_apart;
@@ -28,6 +28,15 @@ pub(crate) trait StepEquation<S: Scalar, const N: usize> {
 
     /// p0 and p1.
     fn momenta(&self, segment: &Segment<S, N>) -> Momenta<S, N>;
+
+    /// The correction of v̄ that the `matrix` of the last kernel makes of a residual.
+    ///
+    /// # Errors
+    /// [`Singular`].
+    #[inline]
+    fn correction(&self, matrix: &Self::Matrix, residual: &SVector<S, N>) -> Result<SVector<S, N>, Singular> {
+        matrix.solve(residual)
+    }
 
     /// The mass that the velocity has in p0: the metric that tells which of two velocities is longer.
     fn inertia(&self, q: &SVector<S, N>, v: &SVector<S, N>) -> SMatrix<S, N, N>;

@@ -5,7 +5,7 @@ use core::fmt;
 use nalgebra::SMatrix;
 
 use crate::numbers::Scalar;
-use crate::system::{Compared, Function, GeneratedDiffers, NoDerivative, Place, Quantity};
+use crate::system::{Compared, Function, GeneratedDiffers, NoDerivative, Place, Quantity, Violation};
 
 /// Why a step was not taken. The state that it started from is untouched; each message says whether a smaller
 /// step size can help.
@@ -79,6 +79,26 @@ pub enum StepError {
     MassNotPositiveDefinite {
         /// The first coordinate with a pivot that is not positive.
         column: usize,
+    },
+    /// The configuration is off a constraint gₖ(q) = 0.
+    OffConstraint {
+        /// The constraint k, from 0.
+        constraint: usize,
+        /// gₖ(q).
+        value: f64,
+    },
+    /// The velocity leads off a constraint.
+    LeavesConstraint {
+        /// The constraint k, from 0.
+        constraint: usize,
+        /// ∂gₖ/∂q·v + ∂gₖ/∂t.
+        rate: f64,
+    },
+    /// The gradient of a constraint depends on those of the others and the constraints are not redundant: the
+    /// configuration is singular, as a four-bar linkage is where all bars lie on a line.
+    DependentConstraints {
+        /// The constraint k, from 0, as far as it is known.
+        constraint: usize,
     },
     /// No velocity in reach has this momentum: ∂L/∂v(q, v) = p, which no step size enters.
     NoVelocity {
@@ -169,6 +189,15 @@ impl From<GeneratedDiffers> for StepError {
     }
 }
 
+impl From<Violation> for StepError {
+    fn from(violation: Violation) -> Self {
+        match violation {
+            Violation::Off { constraint, value } => Self::OffConstraint { constraint, value },
+            Violation::Leaving { constraint, rate } => Self::LeavesConstraint { constraint, rate },
+        }
+    }
+}
+
 impl From<NoDerivative> for StepError {
     fn from(NoDerivative { function, coordinate, place }: NoDerivative) -> Self {
         Self::NoDerivative { function, coordinate, place }
@@ -223,6 +252,21 @@ impl fmt::Display for StepError {
                 f,
                 "∂²L/∂v² is not positive definite (pivot of coordinate {column}): the fitted rules and the splittings \
                  need that; step with another rule, or mend the sign of the kinetic energy"
+            ),
+            Self::OffConstraint { constraint, value } => write!(
+                f,
+                "the configuration is off constraint {constraint} by {value:.3e}; `State::nearest` gives the nearest \
+                 state on all constraints"
+            ),
+            Self::LeavesConstraint { constraint, rate } => write!(
+                f,
+                "the velocity leads off constraint {constraint}, whose value changes at a rate of {rate:.3e}; \
+                 `State::nearest` gives the nearest state on all constraints"
+            ),
+            Self::DependentConstraints { constraint } => write!(
+                f,
+                "the gradients of the constraints are dependent at constraint {constraint}, and the constraints contradict \
+                 one another there: a singular configuration; start away from it, or take another coordinate there"
             ),
             Self::NoVelocity { residual } => write!(
                 f,

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use crate::numbers::NewtonMatrix;
-use crate::step::{Memory, Momenta, Segment, StepKernel};
+use crate::step::{Border, Memory, Momenta, Segment, StepKernel};
 use crate::system::ActingForce;
 
 /// The step of a system by rule `R`: its equation and both momenta, each one function of L, R and f.
@@ -17,7 +17,7 @@ use crate::system::ActingForce;
 /// use dalembert::nalgebra::{SMatrix, Vector1, vector};
 /// use dalembert::rules::{DisplacementRule, Fused};
 /// use dalembert::run::VelocityHistory;
-/// use dalembert::step::{Momenta, Segment, StepKernel};
+/// use dalembert::step::{Free, Momenta, Segment, StepKernel};
 /// use dalembert::system::{ActingForce, Derivatives};
 /// use dalembert::{Discretise, Lagrangian, Midpoint};
 ///
@@ -39,6 +39,7 @@ use crate::system::ActingForce;
 /// impl Fused<Midpoint, 1> for Falling {
 ///     type Matrix = SMatrix<f64, 1, 1>;
 ///     type Memory = VelocityHistory<f64, 1>;
+///     type Border = Free;
 ///     fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {
 ///         Midpoint::lagrangian_kernel(self, segment)
 ///     }
@@ -64,6 +65,10 @@ pub trait Fused<R, const N: usize>: ActingForce<N> {
     /// The memory of a run from step to step: [`VelocityHistory`](crate::run::VelocityHistory), unless the
     /// rule has something better.
     type Memory: Memory<Self, R, N>;
+
+    /// The border of the equation, what holds the motion beside L, R and f: [`Free`](crate::step::Free) of a
+    /// system without constraints.
+    type Border: Border<Self, R, N>;
 
     /// Whether the step's equation is linear in v̄, so that one correction solves it, with a matrix that
     /// neither the state nor an input changes.

@@ -1,11 +1,16 @@
-//! Steps solved for v̄ of several members at once: the step's equation as data of all of them, and what a
-//! run's memory says of the next.
+//! Steps of several members at once: the members, and of steps solved for v̄ the equation as data of all of
+//! them, and what a run's memory says of the next.
 
-pub(crate) mod clocks;
+mod clocks;
+
 pub(crate) mod newton;
+mod runs;
 
-use crate::numbers::{Elementary, EntriesOfMembers, MemberVector, Members, NewtonMatrix};
+use crate::numbers::{EntriesOfMembers, MemberVector, NewtonMatrix};
 use crate::step::{ClosedForm, Discrete, Flow, Fused, Memory, State, VelocityHistory};
+use crate::system::Gathered;
+pub(crate) use runs::Ends;
+pub use runs::{FlowInLanes, LaneRuns};
 
 /// A discrete system whose step's equation is known of several members at once: what `lanes = midpoint`
 /// generates.
@@ -15,27 +20,8 @@ use crate::step::{ClosedForm, Discrete, Flow, Fused, Memory, State, VelocityHist
     note = "add `lanes = midpoint` to the attribute: `#[rayleigh_system(rule = midpoint, lanes = midpoint)]`"
 )]
 pub trait DiscreteInLanes<R, const N: usize>:
-    Sized + ClosedForm<R, N, Scalar: Elementary, Memory: MemoryInLanes<Self, R, N>> + Discrete<R, N>
+    Sized + Gathered<N> + ClosedForm<R, N, Memory: MemoryInLanes<Self, R, N>> + Discrete<R, N>
 {
-    /// The fields of W systems, and terms of the equation that depend on these alone.
-    type Fields<const W: usize>: Copy + core::fmt::Debug;
-
-    /// Whether L, R or f takes the time.
-    const IS_TIMED: bool = false;
-
-    /// Gathers the [`Fields`](Self::Fields) of the systems.
-    fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W>;
-
-    /// The fields at the time `elapsed` after each system's own: [`later`](crate::Lagrangian::later) of each.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn later_in_lanes<const W: usize>(
-        fields: &Self::Fields<W>,
-        elapsed: &Members<Self::Scalar, W>,
-    ) -> Self::Fields<W> {
-        let _ = elapsed;
-        *fields
-    }
-
     /// [`step_kernel`](crate::rules::Fused::step_kernel) of each member, p0 and the entries of the matrix, to
     /// the last bit.
     fn step_kernel_in_lanes<const W: usize>(

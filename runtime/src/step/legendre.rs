@@ -19,7 +19,8 @@ impl<S: Scalar, const N: usize> State<S, N> {
     /// [`StepError::NonFinite`] if q, v, p or ∂²L/∂v² is not finite, [`StepError::DegenerateLagrangian`] if
     /// ∂²L/∂v² is singular, at v and next to it: that of |v|⁴ is singular at v = 0 alone;
     /// [`StepError::SingularCoordinates`] if it is so at q alone; [`StepError::GeneratedDiffers`] if the
-    /// derivatives generated belong to another function.
+    /// derivatives generated belong to another function; [`StepError::OffConstraint`] and
+    /// [`StepError::LeavesConstraint`] where a constraint is violated by more than rounding explains.
     pub fn from_velocity<L: Lagrangian<N, Scalar = S>>(
         system: &L,
         q: impl Into<SVector<S, N>>,
@@ -33,7 +34,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
         StepError::require_finite(&l.d2, Quantity::Derivatives)
             .map_err(|error| explained_by_lagrangian(system, &q, &v, error))?;
         require_regular(&l.d22).or_else(|error| require_regular_nearby(system, &q, &v, error))?;
-        Ok(Self { q, p: l.d2 })
+        system.violation(&q, &v).map_or(Ok(Self { q, p: l.d2 }), |violation| Err(violation.into()))
     }
 
     /// The velocity v with ∂L/∂v(q, v) = p, by Newton's method (one iteration where L is quadratic in v).

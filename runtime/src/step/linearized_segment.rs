@@ -54,6 +54,12 @@ where
     where
         L: 'a,
     {
+        const {
+            assert!(
+                !L::IS_CONSTRAINED,
+                "of a step on constraints there is the derivative by its state: `by.linearized_step(&state)`"
+            );
+        }
         let k = on.legendre_derivatives()?;
         let q_by_p =
             invert(&k.p0_by_q1).map_err(|error| explained_on::<L, R, N>(on.system, on.segment(), error))?;

@@ -14,7 +14,7 @@
 
 use nalgebra::SVector;
 
-use crate::numbers::{NewtonMatrix, Scalar};
+use crate::numbers::Scalar;
 pub(crate) use crate::step::equation::Equation;
 use crate::step::equation::StepEquation;
 use crate::step::{Momenta, Report, Segment, State, StepError};
@@ -127,7 +127,7 @@ pub(crate) fn quick<S: Scalar, const N: usize>(
     for iterations in 0..QUICK_ITERATIONS {
         let kernel = equation.kernel(&segment);
         let residual = kernel.p0 - p;
-        let Ok(correction) = kernel.matrix.solve(&residual) else { break };
+        let Ok(correction) = equation.correction(&kernel.matrix, &residual) else { break };
         let next = segment.v - correction;
         let close = if kind == Equation::Linear {
             true

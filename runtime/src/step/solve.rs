@@ -164,7 +164,11 @@ pub(crate) fn or_without_guess<S, const N: usize>(
     found
 }
 
+/// Fails where `h` is 0 or not finite.
+///
+/// # Errors
+/// [`StepError::StepSize`].
 #[inline]
-pub(crate) fn require_step_size<S: Scalar>(h: S) -> Result<(), StepError> {
+pub fn require_step_size<S: Scalar>(h: S) -> Result<(), StepError> {
     if h.is_finite() && h != S::zero() { Ok(()) } else { Err(StepError::StepSize { h: h.widen() }) }
 }

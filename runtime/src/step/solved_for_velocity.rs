@@ -2,10 +2,9 @@
 
 use nalgebra::SVector;
 
-use crate::step::equation::OfRule;
 use crate::step::{
-    BoundedFlow, BoundedStep, ByFormula, ClosedForm, Discrete, Flow, LinearizedStep, Segment, State, Step,
-    StepError, of_equation_and_step, step_by, step_matrix, step_within_by, verify_momenta,
+    Border, BoundedFlow, BoundedStep, ByFormula, ClosedForm, Discrete, Flow, LinearizedStep, Segment, State,
+    Step, StepError, of_equation_and_step, verify_momenta,
 };
 use crate::system::GeneratedDiffers;
 
@@ -41,7 +40,7 @@ where
         h: L::Scalar,
         guess: Option<&SVector<L::Scalar, N>>,
     ) -> Result<Step<L::Scalar, N>, StepError> {
-        let step = step_by(self, &OfRule::<L, R>::new(self), state, h, guess);
+        let step = <L::Border as Border<L, R, N>>::step(self, state, h, guess);
         if cfg!(debug_assertions)
             && let Ok(step) = &step
         {
@@ -57,7 +56,7 @@ where
         guess: Option<&SVector<L::Scalar, N>>,
     ) -> Result<LinearizedStep<L::Scalar, N>, StepError> {
         let step = self.step(state, h, guess)?;
-        Ok((step, step_matrix(self, state, &step, h)?))
+        Ok((step, <L::Border as Border<L, R, N>>::step_matrix(self, state, &step, h)?))
     }
 
     fn verify_momenta(&self, state: &State<L::Scalar, N>, h: L::Scalar) -> Result<(), GeneratedDiffers> {
@@ -77,7 +76,7 @@ where
         guess: Option<&SVector<L::Scalar, N>>,
         iterations: u32,
     ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
-        let bounded = step_within_by(self, &OfRule::<L, R>::new(self), state, h, guess, iterations);
+        let bounded = <L::Border as Border<L, R, N>>::step_within(self, state, h, guess, iterations);
         if cfg!(debug_assertions)
             && let Ok(bounded) = &bounded
         {

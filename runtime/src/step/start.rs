@@ -8,7 +8,7 @@ use crate::numbers::slices::{vector, write};
 use crate::numbers::{Derivatives, Scalar, linear};
 use crate::step::{ClosedForm, Fused, Momenta, Segment, State, StepError};
 use crate::system::{
-    Compared, Function, GeneratedDiffers, Lagrangian, derivatives_apart,
+    Compared, Function, GeneratedDiffers, Lagrangian, Violation, derivatives_apart,
     verification::{around, has_two_values, slopes_around},
 };
 
@@ -61,10 +61,14 @@ pub(crate) fn verify_start<L: Lagrangian<N>, const N: usize>(
         return Ok(());
     }
     system.later(L::Scalar::constant(elapsed), |system| {
+        let v = velocity(system, state);
+        if let Some(off @ Violation::Off { .. }) = system.violation(&state.q, &v) {
+            return Err(off.into());
+        }
         if cfg!(feature = "std") && with_slopes {
             return state.verify(system);
         }
-        Ok(around(system, &state.q, &velocity(system, state))?)
+        Ok(around(system, &state.q, &v)?)
     })
 }
 

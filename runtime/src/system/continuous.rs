@@ -9,7 +9,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Variations, dot};
-use crate::system::{Function, GeneratedDiffers, NoDerivative, Place, Quantity, Structure};
+use crate::system::{Function, GeneratedDiffers, NoDerivative, Place, Quantity, Structure, Violation};
 
 /// A Lagrangian L(q, v) on TQ, Q = ℝᴺ, with its derivatives.
 #[diagnostic::on_unimplemented(
@@ -175,6 +175,14 @@ pub trait Lagrangian<const N: usize> {
     /// ```
     #[cold]
     fn non_finite_value(&self) -> Option<(Quantity, usize)> {
+        None
+    }
+
+    /// The constraint that (q, v) violates, if there are any and one is violated by more than rounding
+    /// explains. Generated where the system has constraints.
+    #[cold]
+    fn violation(&self, q: &SVector<Self::Scalar, N>, v: &SVector<Self::Scalar, N>) -> Option<Violation> {
+        let _ = (q, v);
         None
     }
 

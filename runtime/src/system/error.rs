@@ -17,6 +17,11 @@ pub enum Function {
     },
     /// σ, the time scale.
     TimeScale,
+    /// A constraint.
+    Constraint {
+        /// Its place in the array, from 0.
+        index: usize,
+    },
     /// A component of p0 = −D1 L_d − f_d⁻, as the step's equation computes it.
     InitialMomentum {
         /// Its coordinate.
@@ -63,6 +68,7 @@ impl fmt::Display for Function {
             Self::Rayleigh => f.write_str("R"),
             Self::Force { index } => write!(f, "component {index} of f"),
             Self::TimeScale => f.write_str("σ"),
+            Self::Constraint { index } => write!(f, "constraint {index}"),
             Self::InitialMomentum { index } => write!(f, "component {index} of p0"),
             Self::FinalMomentum { index } => write!(f, "component {index} of p1"),
         }

@@ -7,10 +7,10 @@
 use nalgebra::SVector;
 
 use crate::numbers::{
-    Blank, Elementary, LaneVector, Lanes, MemberVector, Members, NewtonMatrix, Scalar,
+    Blank, LaneVector, Lanes, MemberVector, NewtonMatrix, Scalar,
     lanes::{lane, splat, write_lane},
 };
-use crate::system::ActingForce;
+use crate::system::{ActingForce, Gathered};
 
 /// The equations of motion at S stages at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,28 +81,12 @@ pub trait ForcedLagrangian<const N: usize>: ActingForce<N> {
     label = "the equations of `{Self}` are not written for several members at once",
     note = "add `lanes = gauss` to the attribute: `#[rayleigh_system(rule = gauss, lanes = gauss)]`"
 )]
-pub trait ForcedLagrangianInLanes<const N: usize>: ForcedLagrangian<N, Scalar: Elementary> {
-    /// The fields of W systems, and terms of the equations that depend on these alone.
-    type Fields<const W: usize>: Copy + core::fmt::Debug;
-
+pub trait ForcedLagrangianInLanes<const N: usize>: Gathered<N> + ForcedLagrangian<N> {
     /// Values of [`rates_in_lanes`](Self::rates_in_lanes) that corrections need.
     type Kept<const W: usize>: Blank;
 
     /// [`Anchors`](ForcedLagrangian::Anchors) of each member at one stage.
     type AnchorsInLanes<const W: usize>: Blank;
-
-    /// Gathers the [`Fields`](Self::Fields) of the systems.
-    fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W>;
-
-    /// The fields at the time `elapsed` after each system's own: [`later`](crate::Lagrangian::later) of each.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn later_in_lanes<const W: usize>(
-        fields: &Self::Fields<W>,
-        elapsed: &Members<Self::Scalar, W>,
-    ) -> Self::Fields<W> {
-        let _ = elapsed;
-        *fields
-    }
 
     /// g = ∂L/∂q + f_L of each member at one stage, whose time `fields` has, and what its correction needs:
     /// as in [`stages_in_time`](ForcedLagrangian::stages_in_time), to the last bit.

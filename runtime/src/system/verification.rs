@@ -36,7 +36,9 @@ use core::hint::black_box;
 use nalgebra::SVector;
 
 use crate::numbers::{Scalar, comparison::Unit};
-use crate::system::{Compared, Engine, Force, Function, GeneratedDiffers, Lagrangian, Rayleigh, TimeScale};
+use crate::system::{
+    Compared, Constrained, Engine, Force, Function, GeneratedDiffers, Lagrangian, Rayleigh, TimeScale,
+};
 
 /// Whether the same operations give the same bits.
 const IS_IEEE: bool = cfg!(not(all(target_arch = "x86", not(target_feature = "sse2"))));
@@ -105,6 +107,21 @@ pub fn time_scale<L: TimeScale<N>, const N: usize>(
 ) -> Result<(), GeneratedDiffers> {
     let (system, q) = black_box((system, q));
     compare(Function::TimeScale, system.time_scale_gradient(q).0, system.time_scale(q))
+}
+
+/// Compares the values of the constraints at q, as [`lagrangian`] does.
+///
+/// # Errors
+/// [`GeneratedDiffers`].
+#[cold]
+#[inline(never)]
+pub fn constraints<L: Constrained<N, M>, const N: usize, const M: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+) -> Result<(), GeneratedDiffers> {
+    let (system, q) = black_box((system, q));
+    let (generated, written) = (system.constraint_gradients(q).0, system.constraints(q));
+    (0..M).try_for_each(|index| compare(Function::Constraint { index }, generated[index], written[index]))
 }
 
 /// Fails unless the two values are equal, or both NaN.

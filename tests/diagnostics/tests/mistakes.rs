@@ -33,5 +33,9 @@ fn mistakes_are_explained_where_they_are_made() {
             Command::new(test).args(env::args_os().skip(1)).env("CARGO_ENCODED_RUSTFLAGS", FLAGS).status();
         return assert!(ended.expect("it runs again").success(), "see above");
     }
-    trybuild::TestCases::new().compile_fail("ui/*.rs");
+    let cases = trybuild::TestCases::new();
+    cases.compile_fail("ui/*.rs");
+    if cfg!(any(target_arch = "x86", target_arch = "x86_64")) {
+        cases.compile_fail("ui/x86/*.rs");
+    }
 }

@@ -6,7 +6,7 @@
 //! cargo study coming_to_rest -- 20 1 some          # to T = 10³, each by four methods
 //! cargo study coming_to_rest -- 20 1 before ../old # the same by the runtime of another checkout
 //! cargo study coming_to_rest -- show 7             # the program of a system
-//! cargo study coming_to_rest -- page               # docs/coming-to-rest.md, from the counts of all runs
+//! cargo study coming_to_rest -- page               # docs/evidence/coming-to-rest.md, from the counts
 //! ```
 
 #[path = "../random_programs/beside.rs"]

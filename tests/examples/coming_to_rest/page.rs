@@ -7,7 +7,7 @@ use anyhow::Result;
 
 use super::counts::Counts;
 
-/// Writes `docs/coming-to-rest.md` from the counts of all draws.
+/// Writes `docs/evidence/coming-to-rest.md` from the counts of all draws.
 pub fn write(workspace: &Path, counts: &Path) -> Result<PathBuf> {
     let of = |runtime: &str| Counts::of_folder(&counts.join(runtime));
     let (all, now, before) = (of("all")?, of("now")?, of("before")?);
@@ -31,7 +31,7 @@ pub fn write(workspace: &Path, counts: &Path) -> Result<PathBuf> {
     }
     let ([runs, refused, steps, _], [runs_before, refused_before, ..]) = (sum(&now), sum(&before));
     writeln!(page, "| all | {runs} | {refused} | {steps} | {runs_before} | {refused_before} |")?;
-    let path = workspace.join("docs/coming-to-rest.md");
+    let path = workspace.join("docs/evidence/coming-to-rest.md");
     std::fs::write(&path, page)?;
     Ok(path)
 }

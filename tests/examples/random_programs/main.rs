@@ -6,7 +6,7 @@
 //! cargo study random_programs -- <count> <seed> compiled    # built by rustc
 //! cargo study random_programs -- <count> <seed> written     # as people write them, built by rustc
 //! cargo study random_programs -- mutations                  # mistakes put back
-//! cargo study random_programs -- page                       # docs/random-programs.md
+//! cargo study random_programs -- page                       # docs/evidence/random-programs.md
 //! ```
 //!
 //! `compiled` may be followed by an engine: `expanded` unless said, `auto`, `num_dual`, `fused` for sums

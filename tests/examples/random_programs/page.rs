@@ -1,4 +1,4 @@
-//! `docs/random-programs.md`, from the counts that runs have left.
+//! `docs/evidence/random-programs.md`, from the counts that runs have left.
 
 use std::fmt::Write;
 
@@ -106,7 +106,7 @@ pub fn write() -> Result<usize, String> {
     page += &written::page::section(&merged(WRITTEN)?);
     page += "\n";
     page += &mutation::table()?;
-    let path = workspace().join("docs/random-programs.md");
+    let path = workspace().join("docs/evidence/random-programs.md");
     std::fs::write(path, page).map_err(|error| error.to_string())?;
     Ok(0)
 }

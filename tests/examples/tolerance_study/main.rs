@@ -1,4 +1,4 @@
-//! What came of the errors asked for, over random motions: writes `docs/error-asked-for.md`.
+//! What came of the errors asked for, over random motions: writes `docs/evidence/error-asked-for.md`.
 //!
 //! ```text
 //! cargo study tolerance_study [seed motions [family]]
@@ -100,7 +100,7 @@ fn main() -> Result<()> {
         all.push(later());
         all
     });
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/error-asked-for.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/evidence/error-asked-for.md");
     std::fs::write(&path, page::text(&collections))
         .with_context(|| format!("{} cannot be written", path.display()))
 }

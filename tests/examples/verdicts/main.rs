@@ -1,5 +1,5 @@
 //! The study of verdicts: random steps by every rule, each held against its equations in twice the precision;
-//! `docs/verdicts.md`.
+//! `docs/evidence/verdicts.md`.
 //!
 //! ```text
 //! cargo study verdicts -- NAME DRAWS FIRST LAST

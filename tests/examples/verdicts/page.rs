@@ -27,7 +27,7 @@ fn table(first: &str, names: &[String], of: impl Fn(&Line, &str) -> bool, lines:
     text
 }
 
-/// Writes `docs/verdicts.md`.
+/// Writes `docs/evidence/verdicts.md`.
 pub fn write() -> Result<PathBuf> {
     let now = lines("now")?;
     ensure!(!now.is_empty(), "there are no counts: run the study first");
@@ -50,7 +50,7 @@ pub fn write() -> Result<PathBuf> {
     page += &table("way", &ways, |line, name| WAYS[line.way] == name, &now);
     page += "\n## By system\n\n";
     page += &table("system", &systems, |line, name| line.system == name, &now);
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).with_file_name("docs").join("verdicts.md");
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).with_file_name("docs").join("evidence/verdicts.md");
     fs::write(&path, page)?;
     Ok(path)
 }

@@ -1,4 +1,4 @@
-//! What fuzzing the step has found, kept: `fuzz/` has the fuzzer.
+//! What fuzzing the step has found, kept: `tests/fuzz/` has the fuzzer.
 
 use dalembert::step::Flow;
 use dalembert::step::Step;

@@ -128,6 +128,7 @@ impl<S: Lagrangian<N>, const N: usize> ActingForce<N> for Mixed<S> {}
 impl<S: ClosedForm<Midpoint, N>, const N: usize> Fused<Apart, N> for Mixed<S> {
     type Matrix = S::Matrix;
     type Memory = VelocityHistory<S::Scalar, N>;
+    type Border = dalembert::step::Free;
 
     const WRITTEN_OUT: bool = true;
 

@@ -122,6 +122,7 @@ macro_rules! discrete {
             impl Fused<$rule, 1> for Mutated {
                 type Matrix = Matrix;
                 type Memory = dalembert::run::$memory<f64, Matrix, 1>;
+                type Border = dalembert::step::Free;
                 const WRITTEN_OUT: bool = true;
 
                 fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {

@@ -146,6 +146,7 @@ mod wrong {
     {
         type Matrix = SMatrix<f64, N, N>;
         type Memory = VelocityHistory<f64, N>;
+        type Border = dalembert::step::Free;
 
         fn step_kernel(&self, segment: &Segment<f64, N>) -> StepKernel<f64, N> {
             Midpoint::lagrangian_kernel(&self.0, segment)

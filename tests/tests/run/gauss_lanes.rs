@@ -5,7 +5,8 @@
 use std::fmt::Debug;
 
 use dalembert::nalgebra::vector;
-use dalembert::run::{InLanes, LaneRuns};
+use dalembert::run::LaneRuns;
+use dalembert::step::FlowInLanes;
 use dalembert::{Discretise, Gauss, State, rayleigh_system};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -150,7 +151,7 @@ fn single(q: [f32; 1], v: [f32; 1], m: f32, k: f32, r: f32) -> (f32, f32) {
 /// Steps that members of a run in eight lanes take alone, in one step of a hundred.
 fn share_alone<L, const N: usize, const S: usize>(members: &[(L, State<f64, N>)], h: f64) -> f64
 where
-    L: InLanes<Gauss<S>, N, Scalar = f64> + dalembert::system::ForcedLagrangianInLanes<N>,
+    L: FlowInLanes<Gauss<S>, N, Scalar = f64> + dalembert::system::ForcedLagrangianInLanes<N>,
 {
     let systems: [&L; 8] = std::array::from_fn(|lane| &members[lane].0);
     let starts: [State<f64, N>; 8] = std::array::from_fn(|lane| members[lane].1);
@@ -362,7 +363,7 @@ fn inputs_and_lanes_given_to_others() {
 fn solved_for_an_error() {
     fn agrees<L, const N: usize, const S: usize>(all: &[(L, State<f64, N>)], h: f64, error: f64) -> f64
     where
-        L: InLanes<Gauss<S>, N, Scalar = f64> + dalembert::system::ForcedLagrangianInLanes<N>,
+        L: FlowInLanes<Gauss<S>, N, Scalar = f64> + dalembert::system::ForcedLagrangianInLanes<N>,
     {
         let time = 20.0 * h;
         let systems: [&L; 8] = std::array::from_fn(|lane| &all[lane].0);

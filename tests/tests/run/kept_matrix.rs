@@ -72,6 +72,7 @@ macro_rules! counted {
         impl Fused<Midpoint, $n> for $name {
             type Matrix = $matrix;
             type Memory = $memory;
+            type Border = dalembert::step::Free;
 
             fn step_kernel(&self, segment: &Segment<f64, $n>) -> StepKernel<f64, $n, $matrix> {
                 self.equations.set(self.equations.get() + 1);

@@ -2,7 +2,8 @@
 //! however many lanes, at once or in parts; and a member that fails has none.
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
-use dalembert::run::{InLanes, LaneRuns};
+use dalembert::run::LaneRuns;
+use dalembert::step::FlowInLanes;
 use dalembert::{Composition, Discretise, Splitting, State, StepError, Trapezoidal, rayleigh_system};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -276,7 +277,7 @@ fn alone<L, M, const N: usize>(
     steps: u64,
 ) -> Result<State<f64, N>, StepError>
 where
-    L: InLanes<M, N, Scalar = f64>,
+    L: FlowInLanes<M, N, Scalar = f64>,
 {
     let mut run = system.by(method, h).run(start);
     for _ in 0..steps {
@@ -291,7 +292,7 @@ where
 #[inline(never)]
 pub fn forward<L, M, const N: usize, const W: usize>(runs: &mut LaneRuns<'_, L, M, N, W>, steps: u64)
 where
-    L: InLanes<M, N>,
+    L: FlowInLanes<M, N>,
 {
     runs.advance(steps);
 }
@@ -302,7 +303,7 @@ const MORE: u64 = if cfg!(debug_assertions) { 6 } else { 18 };
 /// Members in W lanes beside each alone, after 1, 3 and more steps; how many members had an end.
 pub fn agree<L, M, const N: usize, const W: usize>(method: M, members: &[(L, State<f64, N>)], h: f64) -> usize
 where
-    L: InLanes<M, N, Scalar = f64>,
+    L: FlowInLanes<M, N, Scalar = f64>,
     M: Copy,
 {
     let mut ends = 0;
@@ -345,7 +346,7 @@ where
 /// In every number of lanes.
 pub fn agree_in_all<L, M, const N: usize>(method: M, members: &[(L, State<f64, N>)], h: f64) -> usize
 where
-    L: InLanes<M, N, Scalar = f64>,
+    L: FlowInLanes<M, N, Scalar = f64>,
     M: Copy,
 {
     let ends = [
@@ -361,7 +362,7 @@ where
 /// In an odd number of lanes and in an even one: each is another copy of the step to compile.
 pub fn agree_in_two<L, M, const N: usize>(method: M, members: &[(L, State<f64, N>)], h: f64) -> usize
 where
-    L: InLanes<M, N, Scalar = f64>,
+    L: FlowInLanes<M, N, Scalar = f64>,
     M: Copy,
 {
     let ends = [agree::<L, M, N, 3>(method, members, h), agree::<L, M, N, 16>(method, members, h)];
@@ -668,7 +669,7 @@ pub fn refilled<L, M, const N: usize, const W: usize>(
     seed: u64,
 ) -> usize
 where
-    L: InLanes<M, N, Scalar = f64>,
+    L: FlowInLanes<M, N, Scalar = f64>,
     M: Copy,
 {
     let mut random = StdRng::seed_from_u64(seed);

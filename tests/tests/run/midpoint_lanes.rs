@@ -3,8 +3,9 @@
 //! their way to infinity, members that fail.
 
 use dalembert::nalgebra::vector;
-use dalembert::run::{InLanes, LaneRuns};
-use dalembert::step::DiscreteInLanes;
+use dalembert::run::LaneRuns;
+
+use dalembert::step::{DiscreteInLanes, FlowInLanes};
 use dalembert::{Discretise, Midpoint, State, rayleigh_system};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -133,7 +134,7 @@ fn single(q: [f32; 2], v: [f32; 2], m: f32, k: f32, r: f32) -> (f32, f32) {
 /// Steps that members of a run in eight lanes take alone, in one step of a hundred.
 fn share_alone<L, const N: usize>(members: &[(L, State<f64, N>)], h: f64) -> f64
 where
-    L: InLanes<Midpoint, N, Scalar = f64> + DiscreteInLanes<Midpoint, N>,
+    L: FlowInLanes<Midpoint, N, Scalar = f64> + DiscreteInLanes<Midpoint, N>,
 {
     let systems: [&L; 8] = std::array::from_fn(|lane| &members[lane].0);
     let starts: [State<f64, N>; 8] = std::array::from_fn(|lane| members[lane].1);

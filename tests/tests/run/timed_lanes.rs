@@ -3,7 +3,8 @@
 //! that of its own run, whatever the number of lanes and whatever runs beside it.
 
 use dalembert::nalgebra::vector;
-use dalembert::run::{InLanes, LaneRuns};
+use dalembert::run::LaneRuns;
+use dalembert::step::FlowInLanes;
 use dalembert::{Composition, Discretise, Gauss, Lagrangian, Splitting, State, Trapezoidal, rayleigh_system};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -191,7 +192,7 @@ fn gauss_rules_see_the_time_of_each_stage() {
 fn single_precision_too() {
     fn agrees<M: Copy, const W: usize>(method: M, h: f32)
     where
-        for<'s> SingleAtTime<'s>: InLanes<M, 1, Scalar = f32>,
+        for<'s> SingleAtTime<'s>: FlowInLanes<M, 1, Scalar = f32>,
     {
         let mut random = StdRng::seed_from_u64(9);
         let mut any = |low: f32, high: f32| random.random_range(low..high);
@@ -288,7 +289,7 @@ fn solved_for_an_error() {
 fn bits_see_another_time() {
     fn sees<'s, M, L, const N: usize>(method: M, right: [L; 4], wrong: [L; 2], starts: [State<f64, N>; 4])
     where
-        L: InLanes<M, N, Scalar = f64> + Lagrangian<N> + 's,
+        L: FlowInLanes<M, N, Scalar = f64> + Lagrangian<N> + 's,
         M: Copy,
     {
         for wrong in &wrong {

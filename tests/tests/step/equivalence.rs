@@ -119,6 +119,7 @@ where
 {
     type Matrix = Matrix2<f64>;
     type Memory = VelocityHistory<f64, 2>;
+    type Border = dalembert::step::Free;
 
     fn step_kernel(&self, segment: &Segment<f64, 2>) -> StepKernel<f64, 2> {
         let l = ClosedForm::<Again<R>, 2>::discrete_lagrangian_derivatives(self, segment);

@@ -3,6 +3,7 @@
 mod allocation;
 mod certificates;
 mod condition;
+mod constraints;
 mod degenerate;
 mod equivalence;
 mod f32;

@@ -282,6 +282,7 @@ impl ActingForce<1> for Quantised {}
 impl Fused<Midpoint, 1> for Quantised {
     type Matrix = SMatrix<f64, 1, 1>;
     type Memory = VelocityHistory<f64, 1>;
+    type Border = dalembert::step::Free;
 
     fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {
         let l = self.lagrangian_derivatives(&segment.q0, &segment.v);

@@ -1,4 +1,4 @@
-//! A step with its derivatives beside CasADi's generated C: `docs/casadi.md`. Some minutes.
+//! A step with its derivatives beside CasADi's generated C: `docs/evidence/casadi.md`. Some minutes.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ const FLAGS: [&str; 3] = ["-std=c99", "-O3", "-march=native"];
 pub fn run() -> Result<()> {
     let shell = project::shell()?;
     let target = project::root().join("target/casadi");
-    shell.change_dir("benches/casadi");
+    shell.change_dir("measure/benches/casadi");
     let folder = shell.create_temp_dir()?;
     let work = folder.path();
     let python = python_environment::make(&shell, work, &["casadi"])?.join("python");
@@ -58,7 +58,7 @@ pub fn run() -> Result<()> {
             processor(&shell)?
         ),
     ];
-    Ok(shell.write_file("../../docs/casadi.md", page.concat())?)
+    Ok(shell.write_file("../../../docs/evidence/casadi.md", page.concat())?)
 }
 
 /// The bytes of a program's functions that have one of these words in their names. Rust's standard library,

@@ -1,5 +1,5 @@
 //! One study by dalembert, heyoka, pydiffsol and scipy, each as its users would write it:
-//! `docs/escape-times.md`. Some twenty minutes, most of them heyoka's and the building of the module.
+//! `docs/evidence/escape-times.md`. Some twenty minutes, most of them heyoka's and the module's building.
 
 use anyhow::{Context, Result};
 use xshell::cmd;
@@ -13,9 +13,9 @@ const NAMED: [&str; 4] = ["heyoka", "numpy", "pydiffsol", "scipy"];
 /// Measures, and writes the page. Needs Python 3.11.
 pub fn run() -> Result<()> {
     let shell = project::shell()?;
-    shell.change_dir("benches/python");
+    shell.change_dir("measure/benches/python");
     let work = shell.create_temp_dir()?;
-    let packages = ["heyoka", "pydiffsol", "scipy", "../../python"];
+    let packages = ["heyoka", "pydiffsol", "scipy", "../../../bindings/python"];
     let programs = python_environment::make(&shell, work.path(), &packages)?;
     let (python, pip) = (programs.join("python"), programs.join("pip"));
     let tables = cmd!(shell, "{python} study.py").output()?.stdout;
@@ -27,7 +27,7 @@ pub fn run() -> Result<()> {
         shell.read_file("reading.md")?,
         format!("\n{versions}; {python}, {}.\n", processor(&shell)?),
     ];
-    Ok(shell.write_file("../../docs/escape-times.md", page.concat())?)
+    Ok(shell.write_file("../../../docs/evidence/escape-times.md", page.concat())?)
 }
 
 /// The versions that the page names, of a list of `name==version`.

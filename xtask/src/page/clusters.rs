@@ -22,7 +22,8 @@ pub fn run(shell: &Shell) -> Result<()> {
     serve_ssh(&shell, &machine)?;
     for cluster in ["here", "ssh", "slurm"] {
         let folder = home.join(cluster);
-        let study = cmd!(shell, "timeout 60 python python/cluster/clusters.py {cluster} {folder} 200000");
+        let study =
+            cmd!(shell, "timeout 60 python bindings/python/cluster/clusters.py {cluster} {folder} 200000");
         // SSHCluster reads the addresses of what it starts from their logs.
         let study = study.env_remove("DASK_LOGGING__DISTRIBUTED").ignore_status().output()?;
         print!("{}", String::from_utf8_lossy(&study.stdout));

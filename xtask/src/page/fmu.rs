@@ -25,6 +25,6 @@ pub fn run() -> Result<()> {
     let reference = work.path().join("reference.txt");
     let printed = cmd!(shell, "cargo run --quiet --release -p dalembert-fmu --example reference").output()?;
     shell.write_file(&reference, printed.stdout)?;
-    cmd!(shell, "{python} fmu/tests/importer.py {units...} {reference}").run()?;
+    cmd!(shell, "{python} bindings/fmu/tests/importer.py {units...} {reference}").run()?;
     Ok(())
 }

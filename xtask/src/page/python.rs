@@ -41,29 +41,36 @@ pub fn run() -> Result<()> {
         show(&block);
         script(&shell, &block).run()?;
     }
-    cmd!(shell, "cargo fmt --manifest-path python/Cargo.toml --all --check").run()?;
+    cmd!(shell, "cargo fmt --manifest-path bindings/python/Cargo.toml --all --check").run()?;
     cmd!(shell, "cargo fmt --manifest-path examples/python/Cargo.toml --check").run()?;
-    let clippy =
-        cmd!(shell, "cargo clippy --release --manifest-path python/Cargo.toml --workspace --all-targets");
+    let clippy = cmd!(
+        shell,
+        "cargo clippy --release --manifest-path bindings/python/Cargo.toml --workspace --all-targets"
+    );
     clippy.args(["--", "-D", "warnings"]).run()?;
     let reference = work.join("reference.txt");
     let printed =
         cmd!(shell, "cargo run --quiet --release -p dalembert-c --example python_reference").output()?;
     shell.write_file(&reference, printed.stdout)?;
     let edited = trials(&shell, work)?;
-    let tests =
-        cmd!(shell, "python -m pytest --quiet -p no:cacheprovider python/tests --reference {reference}");
+    let tests = cmd!(
+        shell,
+        "python -m pytest --quiet -p no:cacheprovider bindings/python/tests --reference {reference}"
+    );
     tests.args(["--edited".as_ref(), edited.as_os_str()]).run()?;
     // Each kind of long call is interrupted once.
-    cmd!(shell, "python python/tests/faults.py 11").env("RUST_BACKTRACE", "0").ignore_stderr().run()?;
+    cmd!(shell, "python bindings/python/tests/faults.py 11")
+        .env("RUST_BACKTRACE", "0")
+        .ignore_stderr()
+        .run()?;
 
     of_clusters(&shell, work)?;
-    for script in shell.read_dir("python/gallery")? {
+    for script in shell.read_dir("bindings/python/gallery")? {
         if script.extension().is_some_and(|extension| extension == "py") {
             cmd!(shell, "python {script} {work}").run()?;
         }
     }
-    let allowed = project::root().join("python/tests/stubtest.allowlist");
+    let allowed = project::root().join("bindings/python/tests/stubtest.allowlist");
     shell.change_dir(work);
     cmd!(shell, "python -m mypy.stubtest dalembert_scenes --allowlist {allowed}").run()?;
     Ok(())
@@ -72,8 +79,8 @@ pub fn run() -> Result<()> {
 /// Installs the package of systems that misbehave; returns a folder with the same one edited.
 fn trials(shell: &Shell, work: &Path) -> Result<PathBuf> {
     let edited = work.join("edited");
-    cmd!(shell, "pip install --quiet ./python/trials").run()?;
-    let anew = cmd!(shell, "pip install --quiet --no-deps --target {edited} ./python/trials");
+    cmd!(shell, "pip install --quiet ./bindings/python/trials").run()?;
+    let anew = cmd!(shell, "pip install --quiet --no-deps --target {edited} ./bindings/python/trials");
     anew.env("DALEMBERT_EDITED", "1").run()?;
     Ok(edited)
 }
@@ -93,6 +100,6 @@ fn of_clusters(shell: &Shell, work: &Path) -> Result<()> {
     ensure!(commands.len() == 1, "the page on clusters has lost its command");
     show(commands[0]);
     script(shell, &commands[0].replace(" cloud ", &format!(" {}/cloud ", work.display()))).run()?;
-    cmd!(shell, "python python/cluster/killed.py 200000").run()?;
+    cmd!(shell, "python bindings/python/cluster/killed.py 200000").run()?;
     clusters::run(shell)
 }

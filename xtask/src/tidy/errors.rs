@@ -7,7 +7,8 @@ use anyhow::{Result, ensure};
 
 use crate::project;
 
-const FOLDERS: [&str; 5] = ["runtime/src", "ensemble/src", "c/src", "fmu/src", "python/binding/src"];
+const FOLDERS: [&str; 5] =
+    ["runtime/src", "ensemble/src", "bindings/c/src", "bindings/fmu/src", "bindings/python/binding/src"];
 
 /// The errors there were at least, when this was written.
 const FEWEST: usize = 20;

@@ -10,8 +10,14 @@ use crate::{markdown, project};
 /// Pages of rustdoc, whose links it checks itself: they lead to items, or to pages that it makes.
 const OF_RUSTDOC: &str = "runtime/src/guide/";
 
-/// Folders with parts of pages, which programs write into `docs/`: links lead from there.
-const PARTS: [&str; 4] = ["benches/", "report/", "tests/examples/", "docs/speed-against-error/"];
+/// Folders with parts of pages, and those into which programs write the pages: links lead from there.
+const PARTS: [(&str, &str); 5] = [
+    ("docs/speed-against-error/", "docs"),
+    ("measure/report/", "docs"),
+    ("measure/benches/", "docs/evidence"),
+    ("tests/examples/hard_cases/", "docs"),
+    ("tests/examples/", "docs/evidence"),
+];
 
 /// Links that lead nowhere.
 pub fn check(shell: &Shell) -> Result<Vec<String>> {
@@ -40,7 +46,8 @@ fn leads_somewhere(page: &str, target: &str) -> Result<bool> {
     }
     let (path, anchor) = target.split_once('#').map_or((target, None), |(path, anchor)| (path, Some(anchor)));
     let own = Path::new(page).parent().unwrap_or(Path::new(""));
-    let folder = if PARTS.iter().any(|part| page.starts_with(part)) { Path::new("docs") } else { own };
+    let of_part = PARTS.iter().find(|(part, _)| page.starts_with(part));
+    let folder = of_part.map_or(own, |(_, folder)| Path::new(folder));
     let file = if path.is_empty() { PathBuf::from(page) } else { normal(&folder.join(path)) };
     if !project::root().join(&file).exists() {
         return Ok(false);

@@ -14,8 +14,15 @@ const SLACK: usize = 3;
 
 const OPENINGS: [&str; 7] = ["What", "The same", "Those", "Nothing", "Who", "Whose", "That of"];
 
-const FOLDERS: [&str; 7] =
-    ["macros/src", "runtime/src", "c/src", "fmu/src", "ensemble/src", "python/binding/src", "xtask/src"];
+const FOLDERS: [&str; 7] = [
+    "macros/src",
+    "runtime/src",
+    "bindings/c/src",
+    "bindings/fmu/src",
+    "ensemble/src",
+    "bindings/python/binding/src",
+    "xtask/src",
+];
 
 /// Tests, and the text that the macro generates for them; and this file, which has bad openings to see.
 const LEFT_OUT: [&str; 2] = ["macros/src/tests/", "xtask/src/tidy/prose.rs"];

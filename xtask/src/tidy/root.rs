@@ -96,13 +96,12 @@ fn unnamed(shell: &Shell) -> Result<Vec<String>> {
     files.extend(project::files(shell, ".stderr")?);
     let places = [
         "README.md",
-        "benches",
+        "bindings/face",
         "docs",
         "examples",
-        "face",
         "firmware",
         "macros",
-        "report",
+        "measure",
         "runtime/src/guide",
         "tests",
     ];

@@ -9,15 +9,12 @@ use crate::project;
 
 /// Folders with comments that are wider today, and how many lines. It only ever goes down.
 const CEILINGS: &[(&str, usize)] = &[
-    ("benches", 3),
-    ("c", 6),
+    ("bindings", 31),
     ("ensemble", 3),
     ("examples", 5),
     ("firmware", 2),
-    ("fmu", 1),
     ("macros", 5),
-    ("python", 24),
-    ("report", 3),
+    ("measure", 1),
     ("runtime", 45),
     ("scenes", 5),
     ("tests", 6),

@@ -1,54 +1,106 @@
-//! The signatures of `lagrangian`, `rayleigh`, `force` and `time_scale`.
+//! The signatures of the functions that the attribute knows.
 
 use proc_macro2::TokenStream;
 use quote::ToTokens;
 use syn::{Expr, FnArg, Ident, Pat, ReceiverKind, ReturnType, Safety, Signature, Type};
 
 use super::super::diagnostics::{Mistake, Report};
-use super::super::model::RayleighArguments;
+use super::super::parts::{Arguments, Entry, Part, Returns};
 use super::place::{Parameter, Place, at_place, known_place};
 use super::shape::{Shape, has_shape, is, is_zero, same_shape, shape_of};
 
-/// The shape of the system, and whether L takes the time.
-pub fn lagrangian_signature(
-    signature: &Signature,
-    system: &Ident,
-    report: &mut Report,
-) -> Option<(Shape, bool)> {
-    const FUNCTION: &str = "lagrangian";
-    qualifiers(signature, report);
-    receiver(signature, FUNCTION, report);
-    let parameters = typed_parameters(signature, report);
-    let [(of_q, q), (of_v, v), ref after @ ..] = parameters[..] else {
-        report.at(&signature.ident, Mistake::Parameters { function: FUNCTION, expected: LAGRANGIAN });
-        return None;
-    };
-    at_place(of_q, Place::Configuration, report);
-    at_place(of_v, Place::Velocity, report);
-    let shape = shape_of(q, "q", system, report);
-    let Some(shape) = shape else {
-        shape_of(v, "v", system, report);
-        return None;
-    };
-    same_shape(v, "v", &shape, report);
-    let is_timed = match after {
-        [] => false,
-        [t] => time_without_input(*t, &shape, report),
-        _ => {
-            report.at(&signature.ident, Mistake::Parameters { function: FUNCTION, expected: LAGRANGIAN });
-            false
+/// The shape of a system, by the first array of L.
+///
+/// Where it tells none, what is wrong with L is reported.
+pub fn shape(lagrangian: &Signature, system: &Ident, report: &mut Report) -> Option<Shape> {
+    let parameters = typed_parameters(lagrangian, &mut Report::default());
+    let q = parameters.first().filter(|_| parameters.len() > 1);
+    let shape = q.and_then(|(_, q)| shape_of(q, "q", system, &mut Report::default()));
+    if shape.is_none() {
+        let parameters = qualified(lagrangian, Part::Lagrangian, report);
+        match parameters[..] {
+            [(of_q, q), (of_v, v), ..] => {
+                at_place(of_q, Place::Configuration, report);
+                at_place(of_v, Place::Velocity, report);
+                shape_of(q, "q", system, report);
+                shape_of(v, "v", system, report);
+            }
+            _ => other_parameters(lagrangian, Part::Lagrangian, report),
         }
-    };
-    scalar_result(signature, FUNCTION, &shape, report);
-    Some((shape, is_timed))
+    }
+    shape
 }
 
-const LAGRANGIAN: &str = "`(&self, q: [f64; N], v: [f64; N])`, and `t: f64` after them if it depends on time";
+/// The arguments that a function takes, and lengths of arrays that it alone knows.
+pub struct Stated {
+    pub takes: Arguments,
+    /// The length of its input, if it takes one.
+    pub input: Option<Expr>,
+    /// The length of its result, if that is [`Returns::Numbers`].
+    pub result: Option<Expr>,
+}
 
-const RAYLEIGH: &str = "`(&self, v: [f64; N])` or `(&self, q: [f64; N], v: [f64; N])`, and `t: f64` after them if it depends on time";
-const FORCE: &str =
-    "`(&self, q: [f64; N], v: [f64; N])`, and after them an input `u: [f64; M]`, a time `t: f64` or both";
-const TIME_SCALE: &str = "`(&self, q: [f64; N])` alone: steps follow the configuration";
+/// The arguments and lengths that the signature states.
+///
+/// All that is wrong with it is reported.
+pub fn stated(signature: &Signature, part: Part, shape: &Shape, report: &mut Report) -> Stated {
+    let parameters = qualified(signature, part, report);
+    let entry = part.entry();
+    let (mut takes, may_take) = (entry.takes, entry.may_take);
+    let takes_both = (takes.q && takes.v) || (may_take.q && may_take.v && begins_by_both(&parameters, shape));
+    let mut input = None;
+    match (takes_both, &parameters[..]) {
+        (true, &[q, v, ref after @ ..])
+            if may_take.has_after(after.len()) && !(may_take.u && lacks_point(q, v, shape)) =>
+        {
+            (takes.q, takes.v) = (true, true);
+            at_place(q.0, Place::Configuration, report);
+            at_place(v.0, Place::Velocity, report);
+            same_shape(q.1, "q", shape, report);
+            same_shape(v.1, "v", shape, report);
+            (input, takes.t) = after_point(after, may_take, shape, report);
+        }
+        (false, &[(of_point, point), ref after @ ..]) if may_take.has_after(after.len()) => {
+            let (name, place) = if takes.v { ("v", Place::Velocity) } else { ("q", Place::Configuration) };
+            at_place(of_point, place, report);
+            same_shape(point, name, shape, report);
+            (input, takes.t) = after_point(after, may_take, shape, report);
+        }
+        _ => other_parameters(signature, part, report),
+    }
+    takes.u = input.is_some();
+    let result = returned(signature, part, shape, report);
+    Stated { takes, input, result }
+}
+
+/// Whether q and v are the first two, where q may be left out.
+fn begins_by_both(parameters: &[Parameter<'_>], shape: &Shape) -> bool {
+    let second = parameters.get(1);
+    second.is_some_and(|&second| !is(second.1, &shape.scalar) && known_place(second) != Some(Place::Input))
+}
+
+/// The length of the input, if one is taken, and whether the time is: of the parameters after q and v.
+fn after_point(
+    after: &[Parameter<'_>],
+    may_take: Arguments,
+    shape: &Shape,
+    report: &mut Report,
+) -> (Option<Expr>, bool) {
+    match *after {
+        [] => (None, false),
+        [(_, ty @ Type::Array(_))] if !may_take.u => {
+            report.at(ty, Mistake::InputOfFunction);
+            (None, false)
+        }
+        [t] if !may_take.u || is(t.1, &shape.scalar) => (None, time(t, shape, report)),
+        [u] => (input(u, shape, report), false),
+        [(_, t), (_, Type::Array(_)), ..] if is(t, &shape.scalar) => {
+            report.at(t, Mistake::NotAnInput { scalar: shape.scalar.to_string() });
+            (None, true)
+        }
+        [u, ref rest @ ..] => (input(u, shape, report), rest.iter().all(|t| time(*t, shape, report))),
+    }
+}
 
 /// Whether the parameter after the others is a time; if not, says so.
 fn time((name, ty): Parameter<'_>, shape: &Shape, report: &mut Report) -> bool {
@@ -59,17 +111,6 @@ fn time((name, ty): Parameter<'_>, shape: &Shape, report: &mut Report) -> bool {
         report.at(ty, Mistake::NotATime { scalar: shape.scalar.to_string() });
     }
     is_time
-}
-
-/// [`time`] for L and R; an array is reported as an input, which they do not take.
-fn time_without_input(parameter: Parameter<'_>, shape: &Shape, report: &mut Report) -> bool {
-    match parameter.1 {
-        ty @ Type::Array(_) => {
-            report.at(ty, Mistake::InputOfFunction);
-            false
-        }
-        _ => time(parameter, shape, report),
-    }
 }
 
 /// The length of an input's array.
@@ -88,93 +129,6 @@ fn input((name, ty): Parameter<'_>, shape: &Shape, report: &mut Report) -> Optio
     Some(array.len.clone())
 }
 
-/// The arguments of R, and whether the time is among them.
-pub fn rayleigh_signature(
-    signature: &Signature,
-    shape: &Shape,
-    report: &mut Report,
-) -> Option<(RayleighArguments, bool)> {
-    const FUNCTION: &str = "rayleigh";
-    qualifiers(signature, report);
-    receiver(signature, FUNCTION, report);
-    scalar_result(signature, FUNCTION, shape, report);
-    let parameters = typed_parameters(signature, report);
-    let of_velocity = |(name, v): Parameter<'_>, report: &mut Report| {
-        at_place(name, Place::Velocity, report);
-        same_shape(v, "v", shape, report);
-        RayleighArguments::Velocity
-    };
-    let of_both = |(of_q, q): Parameter<'_>, v, report: &mut Report| {
-        at_place(of_q, Place::Configuration, report);
-        same_shape(q, "q", shape, report);
-        of_velocity(v, report);
-        RayleighArguments::ConfigurationAndVelocity
-    };
-    match parameters[..] {
-        [v] => Some((of_velocity(v, report), false)),
-        [v, t] if is(t.1, &shape.scalar) => {
-            let arguments = of_velocity(v, report);
-            Some((arguments, time(t, shape, report)))
-        }
-        [v, (_, u)] if known_place(parameters[1]) == Some(Place::Input) => {
-            report.at(u, Mistake::InputOfFunction);
-            Some((of_velocity(v, report), false))
-        }
-        [q, v] => Some((of_both(q, v, report), false)),
-        [q, v, t] => {
-            let arguments = of_both(q, v, report);
-            Some((arguments, time_without_input(t, shape, report)))
-        }
-        _ => {
-            report.at(&signature.ident, Mistake::Parameters { function: FUNCTION, expected: RAYLEIGH });
-            None
-        }
-    }
-}
-
-/// The length of the input, if f takes one, and whether it takes the time.
-pub fn force_signature(
-    signature: &Signature,
-    shape: &Shape,
-    report: &mut Report,
-) -> Option<(Option<Expr>, bool)> {
-    const FUNCTION: &str = "force";
-    qualifiers(signature, report);
-    receiver(signature, FUNCTION, report);
-    let parameters = typed_parameters(signature, report);
-    let arguments = match parameters[..] {
-        [q, v, ref after @ ..] if after.len() <= 2 && !lacks_point(q, v, shape) => {
-            let ((of_q, q), (of_v, v)) = (q, v);
-            at_place(of_q, Place::Configuration, report);
-            at_place(of_v, Place::Velocity, report);
-            same_shape(q, "q", shape, report);
-            same_shape(v, "v", shape, report);
-            Some(match *after {
-                [] => (None, false),
-                [t] if is(t.1, &shape.scalar) => (None, time(t, shape, report)),
-                [u] => (input(u, shape, report), false),
-                [(_, t), (_, Type::Array(_))] if is(t, &shape.scalar) => {
-                    report.at(t, Mistake::NotAnInput { scalar: shape.scalar.to_string() });
-                    (None, true)
-                }
-                [u, ref rest @ ..] => (input(u, shape, report), rest.iter().all(|t| time(*t, shape, report))),
-            })
-        }
-        _ => {
-            report.at(&signature.ident, Mistake::Parameters { function: FUNCTION, expected: FORCE });
-            None
-        }
-    };
-    match result(signature) {
-        Some(ty @ Type::Array(_)) => same_shape(ty, "force", shape, report),
-        _ => {
-            let expected = format!("`[{}; N]`, a covector at q", shape.scalar);
-            report.at(&result_tokens(signature), Mistake::Returns { function: FUNCTION, expected });
-        }
-    }
-    arguments
-}
-
 /// Whether q or v was left out before an input or a time: the names say so, or the length of the second.
 fn lacks_point(first: Parameter<'_>, second: Parameter<'_>, shape: &Shape) -> bool {
     match [known_place(first), known_place(second)] {
@@ -185,19 +139,43 @@ fn lacks_point(first: Parameter<'_>, second: Parameter<'_>, shape: &Shape) -> bo
     }
 }
 
-/// Says what is wrong with the signature of σ, if anything.
-pub fn time_scale_signature(signature: &Signature, shape: &Shape, report: &mut Report) {
-    const FUNCTION: &str = "time_scale";
+/// The parameters, where what stands before them is reported.
+fn qualified<'s>(signature: &'s Signature, part: Part, report: &mut Report) -> Vec<Parameter<'s>> {
     qualifiers(signature, report);
-    receiver(signature, FUNCTION, report);
-    match typed_parameters(signature, report)[..] {
-        [(name, q)] => {
-            at_place(name, Place::Configuration, report);
-            same_shape(q, "q", shape, report);
-        }
-        _ => report.at(&signature.ident, Mistake::Parameters { function: FUNCTION, expected: TIME_SCALE }),
+    match signature.receiver() {
+        Some(receiver) if matches!(receiver.kind, ReceiverKind::Reference(_, _, None)) => {}
+        Some(receiver) => report.at(receiver, Mistake::Receiver(part.name())),
+        None => report.at(&signature.ident, Mistake::Receiver(part.name())),
     }
-    scalar_result(signature, FUNCTION, shape, report);
+    typed_parameters(signature, report)
+}
+
+fn other_parameters(signature: &Signature, part: Part, report: &mut Report) {
+    let Entry { name: function, parameters: expected, .. } = part.entry();
+    report.at(&signature.ident, Mistake::Parameters { function, expected });
+}
+
+/// The length of the result, where the function alone knows it; a result of another type is reported.
+fn returned(signature: &Signature, part: Part, shape: &Shape, report: &mut Report) -> Option<Expr> {
+    let Entry { name: function, returns, .. } = part.entry();
+    let expected = match (returns, result(signature)) {
+        (Returns::Covector, Some(ty @ Type::Array(_))) => {
+            same_shape(ty, function, shape, report);
+            return None;
+        }
+        (Returns::Number, Some(ty)) if is(ty, &shape.scalar) => return None,
+        (Returns::Numbers, Some(Type::Array(array))) => {
+            if !is(&array.elem, &shape.scalar) {
+                report.at(&array.elem, Mistake::OtherScalar { expected: shape.scalar.to_string() });
+            }
+            return Some(array.len.clone());
+        }
+        (Returns::Covector, _) => format!("`[{}; N]`, a covector at q", shape.scalar),
+        (Returns::Numbers, _) => format!("`[{}; M]`, an array of M numbers", shape.scalar),
+        (Returns::Number, _) => format!("`{}`", shape.scalar),
+    };
+    report.at(&result_tokens(signature), Mistake::Returns { function, expected });
+    None
 }
 
 /// Reports qualifiers and generics that no differentiated function can have.
@@ -219,14 +197,6 @@ pub fn qualifiers(signature: &Signature, report: &mut Report) {
     }
 }
 
-fn receiver(signature: &Signature, function: &'static str, report: &mut Report) {
-    match signature.receiver() {
-        Some(receiver) if matches!(receiver.kind, ReceiverKind::Reference(_, _, None)) => {}
-        Some(receiver) => report.at(receiver, Mistake::Receiver(function)),
-        None => report.at(&signature.ident, Mistake::Receiver(function)),
-    }
-}
-
 /// The parameters after the receiver.
 pub fn typed_parameters<'s>(signature: &'s Signature, report: &mut Report) -> Vec<Parameter<'s>> {
     let mut parameters = Vec::new();
@@ -245,13 +215,6 @@ pub fn typed_parameters<'s>(signature: &'s Signature, report: &mut Report) -> Ve
         }
     }
     parameters
-}
-
-fn scalar_result(signature: &Signature, function: &'static str, shape: &Shape, report: &mut Report) {
-    if !result(signature).is_some_and(|ty| is(ty, &shape.scalar)) {
-        let expected = format!("`{}`", shape.scalar);
-        report.at(&result_tokens(signature), Mistake::Returns { function, expected });
-    }
 }
 
 pub fn result(signature: &Signature) -> Option<&Type> {

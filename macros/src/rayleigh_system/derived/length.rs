@@ -21,7 +21,8 @@ impl Deriving<'_> {
     pub(super) fn rounded(&mut self, outputs: &[Node]) -> Made<Vec<Node>> {
         self.complete()?;
         let factored = self.graph.factored(outputs, self.written);
-        let rounded = if self.system.is_fused { self.graph.fused(&factored, self.written) } else { factored };
+        let rounded =
+            if self.system.fused.is_some() { self.graph.fused(&factored, self.written) } else { factored };
         self.complete()?;
         Ok(rounded)
     }

@@ -46,6 +46,10 @@ pub enum Of {
     ForceDerivatives,
     /// σ and ∇σ.
     TimeScaleGradient,
+    /// g and ∂g/∂q.
+    ConstraintGradients,
+    /// Σ λₖ ∂²gₖ/∂q².
+    ConstraintCurvature,
     /// ∂f/∂u.
     ForceByInput,
     /// ∂²/∂q∂θ and ∂²/∂v∂θ of L or R, ∂f/∂θ.
@@ -91,6 +95,7 @@ impl Of {
                 &["q", "v", "p", "kept", "fields", "systems", "anchors", "angles", "reciprocals"]
             }
             Self::Along(Part::Force) => &["q", "v", "h", "half", "q0", "q1", "minus", "plus", "vector"],
+            Self::ConstraintCurvature => &["q", "v", "h", "half", "q0", "q1", "minus", "plus", "lambda"],
             Self::Along(_) => &["q", "v", "h", "half", "q0", "q1", "minus", "plus", "a", "b"],
             _ => &["q", "v", "h", "half", "q0", "q1", "minus", "plus"],
         }

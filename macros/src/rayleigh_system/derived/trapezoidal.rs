@@ -13,7 +13,7 @@ use super::*;
 impl Deriving<'_> {
     pub(super) fn trapezoidal(&mut self, parts: &Parts) -> Equation {
         let half = self.graph.half_step();
-        let end_time = self.system.timed.any().then(|| self.graph.end_time());
+        let end_time = self.system.is_timed().then(|| self.graph.end_time());
         // The time at the start has the name that the bodies know.
         let [mut start, mut end] = [("q0", "start", None), ("q1", "end", end_time)]
             .map(|(q, name, time)| Point::new(name, self.coordinates(q, name), time));

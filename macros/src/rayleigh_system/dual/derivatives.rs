@@ -5,26 +5,29 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::model::{Degrees, Home, Part, RayleighArguments, System};
-use super::super::write::view::{arguments, owner};
+use super::super::model::{Degrees, Home, System};
+use super::super::parts::Part;
+use super::super::write::view::owner;
 
-/// `|q, v| self.lagrangian_over(q, v)`: L, R or f over other numbers, on the type of this home.
-fn closure(system: &System<'_>, home: Home, part: Part, point: RayleighArguments) -> TokenStream {
-    let (over, owner, after) = (format_ident!("{}_over", part.name()), owner(home), lifted(system, part));
-    match point {
-        RayleighArguments::Velocity => quote!(|_, v| #owner.#over(v #(, #after)*)),
-        RayleighArguments::ConfigurationAndVelocity => quote!(|q, v| #owner.#over(q, v #(, #after)*)),
-    }
+/// `|q, v| self.lagrangian_over(q, v)`: a part over other numbers, on the type of this home.
+fn closure(system: &System<'_>, home: Home, part: Part) -> TokenStream {
+    let (over, owner) = (format_ident!("{}_over", part.name()), owner(home));
+    let takes = system.takes(part).unwrap_or_default();
+    let [q, v] = [(takes.q, quote!(q)), (takes.v, quote!(v))]
+        .map(|(is_taken, name)| if is_taken { name } else { quote!(_) });
+    let lifted = [quote!(q), quote!(v), quote!(dual::lift(self.u)), quote!(dual::lift(self.t))];
+    let arguments = takes.choose(lifted);
+    quote!(|#q, #v| #owner.#over(#(#arguments),*))
 }
 
 /// Gradient, derivatives and variations of L or R.
-pub fn of_function(system: &System<'_>, part: Part, point: RayleighArguments) -> TokenStream {
+pub fn of_function(system: &System<'_>, part: Part) -> TokenStream {
     let System { scalar, .. } = system;
     let (n, twice) = (system.degrees.times(1), system.degrees.times(2));
     let function = part.name();
     let [gradient, derivatives, variations] =
         ["gradient", "derivatives", "variations"].map(|suffix| format_ident!("{function}_{suffix}"));
-    let closure = closure(system, system.home_of(part), part, point);
+    let closure = closure(system, system.home_of(part), part);
     // fn lagrangian_gradient(&self, q: …, v: …) -> Gradient<f64, 2> {
     //     dual::gradient(q, v, |q, v| self.lagrangian_over(q, v), |q, v| self.lagrangian_over(q, v))
     // }
@@ -53,14 +56,14 @@ pub fn of_function(system: &System<'_>, part: Part, point: RayleighArguments) ->
 pub fn of_force(system: &System<'_>) -> TokenStream {
     let System { scalar, .. } = system;
     let (n, twice) = (system.degrees.times(1), system.degrees.times(2));
-    let (owner, after) = (owner(system.home_of(Part::Force)), lifted(system, Part::Force));
+    let closure = closure(system, system.home_of(Part::Force), Part::Force);
     quote! {
         fn force_derivatives(&self, q: &Vector, v: &Vector) -> CovectorDerivatives<#scalar, #n> {
             dual::covector_derivatives::<#scalar, #n, #twice>(
                 q,
                 v,
-                |q, v| #owner.force_over(q, v #(, #after)*),
-                |q, v| #owner.force_over(q, v #(, #after)*),
+                #closure,
+                #closure,
             )
         }
 
@@ -74,8 +77,8 @@ pub fn of_force(system: &System<'_>) -> TokenStream {
                 q,
                 v,
                 direction,
-                |q, v| #owner.force_over(q, v #(, #after)*),
-                |q, v| #owner.force_over(q, v #(, #after)*),
+                #closure,
+                #closure,
             )
         }
     }
@@ -85,15 +88,14 @@ pub fn of_force(system: &System<'_>) -> TokenStream {
 pub fn cancelling_terms(system: &System<'_>) -> TokenStream {
     let scalar = &system.scalar;
     let (n, twice) = (system.degrees.times(1), system.degrees.times(2));
-    let closure = |part, point| closure(system, system.home(), part, point);
-    let both = RayleighArguments::ConfigurationAndVelocity;
-    let lagrangian = closure(Part::Lagrangian, both);
-    let rayleigh = system.rayleigh.map(|point| {
-        let closure = closure(Part::Rayleigh, point);
+    let closure = |part| closure(system, system.home(), part);
+    let lagrangian = closure(Part::Lagrangian);
+    let rayleigh = system.has(Part::Rayleigh).then(|| {
+        let closure = closure(Part::Rayleigh);
         quote!(terms.rate += dual::terms_of_rayleigh::<#scalar, #n, #twice>(q, v, #closure);)
     });
-    let force = system.has_force.then(|| {
-        let closure = closure(Part::Force, both);
+    let force = system.has(Part::Force).then(|| {
+        let closure = closure(Part::Force);
         quote!(terms.rate += dual::terms_of_force::<#scalar, #n, #twice>(q, v, #closure);)
     });
     let is_changed = rayleigh.is_some() || force.is_some();
@@ -116,8 +118,8 @@ pub fn cancelling_terms(system: &System<'_>) -> TokenStream {
 
 /// σ and ∇σ.
 pub fn of_time_scale(system: &System<'_>) -> TokenStream {
-    let (scalar, owner) = (&system.scalar, owner(system.home()));
-    let closure = quote!(|q, _| #owner.time_scale_over(q));
+    let scalar = &system.scalar;
+    let closure = closure(system, system.home(), Part::TimeScale);
     quote! {
         fn time_scale_gradient(&self, q: &Vector) -> (#scalar, Vector) {
             let Gradient { value, d1, .. } = dual::gradient(q, q, #closure, #closure);
@@ -130,7 +132,7 @@ pub fn of_time_scale(system: &System<'_>) -> TokenStream {
 pub fn by_input(system: &System<'_>, input: &Degrees) -> TokenStream {
     let scalar = &system.scalar;
     let (n, m) = (system.degrees.times(1), input.times(1));
-    let time = system.timed.force.then(|| quote!(, dual::lift(self.t)));
+    let time = system.takes_time(Part::Force).then(|| quote!(, dual::lift(self.t)));
     quote! {
         fn force_by_input(&self, q: &Vector, v: &Vector) -> SMatrix<#scalar, #n, #m> {
             dual::by_input(q, v, &self.u, |q, v, u| self.system.force_over(q, v, u #time))
@@ -138,24 +140,16 @@ pub fn by_input(system: &System<'_>, input: &Degrees) -> TokenStream {
     }
 }
 
-/// The arguments of L, R or f after q and v, as constants of the dual numbers.
-fn lifted(system: &System<'_>, part: Part) -> Vec<TokenStream> {
-    arguments(system, part).into_iter().map(|argument| quote!(dual::lift(#argument))).collect()
-}
-
 /// The Hessians that second derivatives of the step need.
 pub fn along_vectors(system: &System<'_>) -> TokenStream {
     let scalar = &system.scalar;
     let (n, m, twice) = (system.degrees.times(1), system.inputs(), system.degrees.times(2));
-    let parts = [Some((Part::Lagrangian, RayleighArguments::ConfigurationAndVelocity))]
-        .into_iter()
-        .chain([system.rayleigh.map(|point| (Part::Rayleigh, point))])
-        .flatten();
+    let parts = system.terms().filter(|&part| part != Part::Force);
     let owner = owner(system.home());
-    let functions = parts.map(|(part, point)| {
+    let functions = parts.map(|part| {
         let function = format_ident!("{}_along", part.name());
         // The trait stands on the view, wherever L and R do.
-        let closure = closure(system, system.home(), part, point);
+        let closure = closure(system, system.home(), part);
         quote! {
             fn #function(
                 &self,
@@ -168,8 +162,8 @@ pub fn along_vectors(system: &System<'_>) -> TokenStream {
             }
         }
     });
-    let force = system.has_force.then(|| {
-        let time = system.timed.force.then(|| quote!(, dual::lift(self.t)));
+    let force = system.has(Part::Force).then(|| {
+        let time = system.takes_time(Part::Force).then(|| quote!(, dual::lift(self.t)));
         let (given, input) = match system.input {
             Some(_) => (quote!(&self.u), quote!(, u)),
             None => (quote!(&[]), quote!()),

@@ -9,25 +9,24 @@ use super::super::derived::Kind;
 use super::super::emit::{StraightLine, Writing};
 use super::super::graph::Node;
 use super::super::lower::Lowered;
-use super::super::model::{Part, RayleighArguments, System};
+use super::super::model::System;
+use super::super::parts::{Part, Returns};
 use super::super::write::item::{are_bindings, quiet};
 
 /// Whether the user's block has functions named as those over dual numbers.
 pub fn names_are_taken(system: &System<'_>) -> bool {
-    let generated = ["lagrangian_over", "rayleigh_over", "force_over", "time_scale_over"];
+    let generated = Part::ALL.map(|part| format!("{}_over", part.name()));
     system.source.functions().any(|function| generated.iter().any(|name| function.sig.ident == name))
 }
 
 /// L, R and f over `Real<D>`.
 pub fn twins(system: &System<'_>, lowered: &Lowered) -> TokenStream {
     let name = &system.name;
-    let both = RayleighArguments::ConfigurationAndVelocity;
-    let of = |part, point, outputs: &[Node]| over(system, lowered, part, point, outputs);
-    let lagrangian = of(Part::Lagrangian, both, &[lowered.lagrangian]);
-    let rayleigh =
-        system.rayleigh.zip(lowered.rayleigh).map(|(point, root)| of(Part::Rayleigh, point, &[root]));
-    let force = lowered.force.as_ref().map(|components| of(Part::Force, both, components));
-    let time_scale = lowered.time_scale.map(|root| time_scale(system, lowered, root));
+    let of = |part, outputs: &[Node]| over(system, lowered, part, outputs);
+    let lagrangian = of(Part::Lagrangian, &[lowered.lagrangian]);
+    let rayleigh = lowered.rayleigh.map(|root| of(Part::Rayleigh, &[root]));
+    let force = lowered.force.as_ref().map(|components| of(Part::Force, components));
+    let time_scale = lowered.time_scale.map(|root| of(Part::TimeScale, &[root]));
     let bindings = are_bindings(&lowered.bindings);
     let quiet_bindings =
         bindings.map(|bindings| quote!(#[allow(unused_variables, nonstandard_style)] #bindings));
@@ -51,47 +50,29 @@ fn over_duals(lowered: &Lowered, scalar: &Ident, outputs: &[Node]) -> StraightLi
     Writing { graph: &lowered.graph, scalar, taken, is_portable: false }.written(outputs, &Kind::Duals)
 }
 
-/// σ over `Real<D>`.
-fn time_scale(system: &System<'_>, lowered: &Lowered, root: Node) -> TokenStream {
+/// A part over `Real<D>`.
+fn over(system: &System<'_>, lowered: &Lowered, part: Part, outputs: &[Node]) -> TokenStream {
     let scalar = &system.scalar;
-    let n = system.degrees.times(1);
-    let line = over_duals(lowered, scalar, &[root]);
-    let (statements, value) = (&line.statements, &line.outputs);
-    quote! {
-        /// `time_scale` over plain and dual numbers.
-        #[inline(always)]
-        fn time_scale_over<D: Dual<#scalar>>(&self, q: [Real<D>; #n]) -> Real<D> {
-            #statements
-            #(#value)*
-        }
-    }
-}
-
-fn over(
-    system: &System<'_>,
-    lowered: &Lowered,
-    part: Part,
-    point: RayleighArguments,
-    outputs: &[Node],
-) -> TokenStream {
-    let scalar = &system.scalar;
-    let n = system.degrees.times(1);
+    let (n, m) = (system.degrees.times(1), system.inputs());
     let line = over_duals(lowered, scalar, outputs);
-    let q = (point == RayleighArguments::ConfigurationAndVelocity).then(|| quote!(q: [Real<D>; #n],));
-    let input = system.input.as_ref().filter(|_| part == Part::Force).map(|input| input.times(1));
-    let input = input.map(|m| quote!(u: [Real<D>; #m],));
-    let time = system.timed.of(part).then(|| quote!(t: Real<D>,));
+    let [q, v] = [quote!(q: [Real<D>; #n]), quote!(v: [Real<D>; #n])];
+    let parameters = [q, v, quote!(u: [Real<D>; #m]), quote!(t: Real<D>)];
+    let parameters = system.takes(part).unwrap_or_default().choose(parameters);
     let (function, statements, values) =
         (format_ident!("{}_over", part.name()), &line.statements, &line.outputs);
-    let (result, value) = match part {
-        Part::Force => (quote!([Real<D>; #n]), quote!([#(#values),*])),
-        _ => (quote!(Real<D>), quote!(#(#values)*)),
+    let (result, value) = match part.entry().returns {
+        Returns::Covector => (quote!([Real<D>; #n]), quote!([#(#values),*])),
+        Returns::Number => (quote!(Real<D>), quote!(#(#values)*)),
+        Returns::Numbers => {
+            let count = values.len();
+            (quote!([Real<D>; #count]), quote!([#(#values),*]))
+        }
     };
     let text = format!(" `{}` over plain and dual numbers.", part.name());
     quote! {
         #[doc = #text]
         #[inline(always)]
-        fn #function<D: Dual<#scalar>>(&self, #q v: [Real<D>; #n], #input #time) -> #result {
+        fn #function<D: Dual<#scalar>>(&self, #(#parameters),*) -> #result {
             #statements
             #value
         }

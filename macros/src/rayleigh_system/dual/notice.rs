@@ -1,7 +1,6 @@
 //! Notices about dual numbers: a warning where nobody asked for them, an error where they cannot run.
 //!
-//! Neither changes what is generated. Stable Rust has no warnings of macros; a deprecated constant, used at
-//! the user's token, makes rustc print one.
+//! Neither changes what is generated.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{quote, quote_spanned};
@@ -9,7 +8,8 @@ use quote::{quote, quote_spanned};
 use super::super::diagnostics::{Note, span_of};
 use super::super::lower::Refusal;
 use super::super::model::System;
-use super::super::write::item::{conditions, lint_levels};
+use super::super::write::item::conditions;
+use super::super::write::notice;
 
 /// The most coordinates that a step by dual numbers has the stack for, on a thread of 2 MiB, the least of
 /// Rust's defaults.
@@ -24,20 +24,8 @@ const MOST_OF_THIRD: usize = 8;
 
 /// The warning at the token that could not be followed.
 pub fn warning(system: &System<'_>, refusal: &Refusal) -> TokenStream {
-    let (conditions, levels) = (conditions(system.source), lint_levels(system.source));
-    let text =
-        Note::DualNumbers { system: system.name.to_string(), reason: refusal.reason.clone() }.to_string();
-    let read = quote_spanned!(refusal.span=> derivatives_by_dual_numbers);
-    quote! {
-        #(#conditions)*
-        #(#levels)*
-        const _: () = {
-            #[allow(non_upper_case_globals)]
-            #[deprecated(note = #text)]
-            const derivatives_by_dual_numbers: () = ();
-            #read
-        };
-    }
+    let note = Note::DualNumbers { system: system.name.to_string(), reason: refusal.reason.clone() };
+    notice::warning(system, "derivatives_by_dual_numbers", &note, refusal.span)
 }
 
 /// The error where the stack would not do.

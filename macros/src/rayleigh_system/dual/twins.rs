@@ -6,6 +6,7 @@ use quote::{format_ident, quote};
 use syn::ImplItemFn;
 
 use super::super::model::{Function, System};
+use super::super::parts::Part;
 use super::super::write::item::conditions_of;
 use super::rewrite::{OwnMethods, Twin};
 
@@ -70,7 +71,7 @@ pub fn twins_of_function(system: &System<'_>, function: &Function, twin: &Twin) 
             }
         }
     };
-    let of_pair = system.rayleigh.is_some();
+    let of_pair = system.has(Part::Rayleigh);
     let lagrangian = part("lagrangian", " L over plain and dual numbers.", of_pair.then(|| quote!(0)));
     let rayleigh = of_pair
         .then(|| part("rayleigh", " The Rayleigh function over plain and dual numbers.", Some(quote!(1))));

@@ -3,37 +3,12 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::super::model::{Home, Part, RayleighArguments, Source, System};
+use super::super::model::{Home, System};
+use super::super::parts::Part;
 use super::super::structure::{Engine, Structure};
+use super::constrained;
 use super::item::PlainFields;
-use super::view::{self, arguments, owner, subject};
-
-/// The plain value of L (0) or R (1) at the vectors q and v.
-fn value(system: &System<'_>, part: Part, point: RayleighArguments) -> TokenStream {
-    let function = part.name();
-    match system.source {
-        Source::Block(_) => {
-            let function = format_ident!("{function}");
-            let (owner, after) = (owner(system.home_of(part)), arguments(system, part));
-            match point {
-                RayleighArguments::Velocity => quote!(#owner.#function((*v).into() #(, #after)*)),
-                RayleighArguments::ConfigurationAndVelocity => {
-                    quote!(#owner.#function((*q).into(), (*v).into() #(, #after)*))
-                }
-            }
-        }
-        Source::Function(source) => {
-            let name = &source.item.sig.ident;
-            let fields = source.fields().map(|(field, _)| quote!(self.#field));
-            let index = match (system.rayleigh, function) {
-                (None, _) => None,
-                (Some(_), "lagrangian") => Some(quote!(.0)),
-                (Some(_), _) => Some(quote!(.1)),
-            };
-            quote!(#name((*q).into(), (*v).into(), #(#fields),*) #index)
-        }
-    }
-}
+use super::view::{self, owner, subject, value};
 
 /// `impl Lagrangian<2> for Ring`, with the derivatives of either engine.
 /// `places` are the functions of the system and of its view that find operations without a derivative.
@@ -49,13 +24,14 @@ pub fn lagrangian(
     let home = system.home_of(Part::Lagrangian);
     let subject = subject(system, home);
     let later = if home == Home::View { view::later(system) } else { None };
-    let value = value(system, Part::Lagrangian, RayleighArguments::ConfigurationAndVelocity);
+    let value = value(system, Part::Lagrangian);
     let asked = |home: Home| {
         let (verification, places) = (verification(system, home), &places[usize::from(home == Home::View)]);
         let is_expanded = matches!(structure.engine, Engine::Expanded);
         let missing = (!is_expanded || places.is_some()).then(|| without_derivative(system, home));
         let non_finite = non_finite_value(system, home, plain.names_fields);
-        quote!(#verification #missing #places #non_finite)
+        let violation = constrained::violation(system);
+        quote!(#verification #missing #places #non_finite #violation)
     };
     let of_view = system.has_view().then(|| asked(Home::View));
     let asked = asked(home);
@@ -87,7 +63,7 @@ pub fn lagrangian(
 
 /// `fn without_derivative`: of L, R and f, as far as `home` has them.
 fn without_derivative(system: &System<'_>, home: Home) -> TokenStream {
-    let parts = system.parts().filter(|&part| home == Home::View || system.home_of(part) == home);
+    let parts = system.terms().filter(|&part| home == Home::View || system.home_of(part) == home);
     let others = parts.skip(1).map(|part| format_ident!("{}", part.name()));
     // missing::lagrangian(self, q, v).or_else(|| missing::rayleigh(self, q, v))
     quote! {
@@ -108,7 +84,7 @@ fn non_finite_value(system: &System<'_>, home: Home, names_fields: bool) -> Opti
     let generated = quote!(::dalembert::generated);
     let is_view = home == Home::View;
     let input = (is_view && system.input.is_some()).then(|| quote!(#generated::missing::input(&self.u)));
-    let time = (is_view && system.timed.any()).then(|| quote!(#generated::missing::time(self.t)));
+    let time = (is_view && system.is_timed()).then(|| quote!(#generated::missing::time(self.t)));
     let owner = owner(home);
     let fields = names_fields.then(|| quote!(#generated::PlainFields::first_no_number(#owner)));
     let mut values = input.into_iter().chain(time).chain(fields);
@@ -124,10 +100,16 @@ fn non_finite_value(system: &System<'_>, home: Home, names_fields: bool) -> Opti
 
 /// `fn verify_generated` and `fn verify_slopes`: of L, R and f, as far as `home` has them.
 fn verification(system: &System<'_>, home: Home) -> TokenStream {
-    let parts = system.parts().filter(|&part| home == Home::View || system.home_of(part) == home);
+    let parts = system.terms().filter(|&part| home == Home::View || system.home_of(part) == home);
     let parts: Vec<_> = parts.map(Part::name).collect();
-    let time_scale = (system.has_time_scale && home == system.home())
+    let time_scale = (system.has(Part::TimeScale) && home == system.home())
         .then(|| quote!(::dalembert::generated::verification::time_scale(self, q)?;));
+    let (n, m) = (system.degrees.times(1), system.constraint_count());
+    let constraints = system
+        .constraints
+        .as_ref()
+        .map(|_| quote!(::dalembert::generated::verification::constraints::<_, #n, #m>(self, q)?;));
+    let before = quote!(#time_scale #constraints);
     // fn verify_generated(&self, q: …, v: …) -> Result<(), GeneratedDiffers> {
     //     verification::lagrangian(self, q, v)?; verification::rayleigh(self, q, v)
     // }
@@ -147,21 +129,20 @@ fn verification(system: &System<'_>, home: Home) -> TokenStream {
             }
         })
     };
-    let functions = [function("verify_generated", "", time_scale), function("verify_slopes", "_slope", None)];
+    let functions =
+        [function("verify_generated", "", Some(before)), function("verify_slopes", "_slope", None)];
     quote!(#(#functions)*)
 }
 
 /// `impl Rayleigh<2> for Ring`, with the derivatives of either engine.
-pub fn rayleigh(system: &System<'_>, point: RayleighArguments, derivatives: TokenStream) -> TokenStream {
+pub fn rayleigh(system: &System<'_>, derivatives: TokenStream) -> TokenStream {
     let scalar = &system.scalar;
     let n = system.degrees.times(1);
     let subject = subject(system, system.home_of(Part::Rayleigh));
-    let value = value(system, Part::Rayleigh, point);
+    let value = value(system, Part::Rayleigh);
     let delegation = view::delegation(system, Part::Rayleigh, None);
-    let q = match point {
-        RayleighArguments::Velocity => quote!(_q),
-        RayleighArguments::ConfigurationAndVelocity => quote!(q),
-    };
+    let takes_q = system.takes(Part::Rayleigh).is_some_and(|takes| takes.q);
+    let q = if takes_q { quote!(q) } else { quote!(_q) };
     quote! {
         #[automatically_derived]
         impl Rayleigh<#n> for #subject {
@@ -180,14 +161,13 @@ pub fn rayleigh(system: &System<'_>, point: RayleighArguments, derivatives: Toke
 /// `impl Force<2> for Ring`, with the derivatives of either engine.
 pub fn force(system: &System<'_>, derivatives: TokenStream) -> TokenStream {
     let n = system.degrees.times(1);
-    let home = system.home_of(Part::Force);
-    let (subject, owner, after) = (subject(system, home), owner(home), arguments(system, Part::Force));
+    let (subject, value) = (subject(system, system.home_of(Part::Force)), value(system, Part::Force));
     quote! {
         #[automatically_derived]
         impl Force<#n> for #subject {
             #[inline]
             fn force(&self, q: &Vector, v: &Vector) -> Vector {
-                #owner.force((*q).into(), (*v).into() #(, #after)*).into()
+                #value.into()
             }
 
             #derivatives
@@ -199,12 +179,12 @@ pub fn force(system: &System<'_>, derivatives: TokenStream) -> TokenStream {
 pub fn time_scale(system: &System<'_>, gradient: TokenStream) -> TokenStream {
     let scalar = &system.scalar;
     let n = system.degrees.times(1);
-    let (subject, owner) = (subject(system, system.home()), owner(system.home()));
+    let (subject, value) = (subject(system, system.home()), value(system, Part::TimeScale));
     quote! {
         #[automatically_derived]
         impl ::dalembert::generated::TimeScale<#n> for #subject {
             fn time_scale(&self, q: &Vector) -> #scalar {
-                #owner.time_scale((*q).into())
+                #value
             }
 
             #gradient
@@ -217,7 +197,7 @@ pub fn acting_force(system: &System<'_>, cancelling_terms: Option<TokenStream>) 
     let scalar = &system.scalar;
     let n = system.degrees.times(1);
     let subject = subject(system, system.home());
-    let rayleigh = system.rayleigh.map(|_| {
+    let rayleigh = system.has(Part::Rayleigh).then(|| {
         quote! {
             const HAS_RAYLEIGH: bool = true;
 
@@ -232,7 +212,7 @@ pub fn acting_force(system: &System<'_>, cancelling_terms: Option<TokenStream>) 
             }
         }
     });
-    let force = system.has_force.then(|| {
+    let force = system.has(Part::Force).then(|| {
         quote! {
             const HAS_FORCE: bool = true;
 
@@ -251,9 +231,14 @@ pub fn acting_force(system: &System<'_>, cancelling_terms: Option<TokenStream>) 
             }
         }
     });
-    let timed = system.timed.any().then(|| {
+    let timed = system.is_timed().then(|| {
         quote!(
             const IS_TIMED: bool = true;
+        )
+    });
+    let constrained = system.constraints.is_some().then(|| {
+        quote!(
+            const IS_CONSTRAINED: bool = true;
         )
     });
     quote! {
@@ -262,19 +247,15 @@ pub fn acting_force(system: &System<'_>, cancelling_terms: Option<TokenStream>) 
             #rayleigh
             #force
             #timed
+            #constrained
             #cancelling_terms
         }
     }
 }
 
 /// `impl ForcedLagrangian<2> for Ring`. The equations of motion at the stages are those that the runtime
-/// makes of L and the acting force, unless an engine gives them. `impl ForcedLagrangianInLanes<2> for Ring`,
-/// where it is asked for.
-pub fn forced_lagrangian(
-    system: &System<'_>,
-    stages: Option<TokenStream>,
-    in_lanes: Option<TokenStream>,
-) -> TokenStream {
+/// makes of L and the acting force, unless an engine gives them.
+pub fn forced_lagrangian(system: &System<'_>, stages: Option<TokenStream>) -> TokenStream {
     let n = system.degrees.times(1);
     let subject = subject(system, system.home());
     let stages = stages.unwrap_or_else(|| {
@@ -282,20 +263,10 @@ pub fn forced_lagrangian(
             type Anchors<const S: usize> = ();
         )
     });
-    let in_lanes = in_lanes.map(|functions| {
-        quote! {
-            #[automatically_derived]
-            impl ::dalembert::generated::ForcedLagrangianInLanes<#n> for #subject {
-                #functions
-            }
-        }
-    });
     quote! {
         #[automatically_derived]
         impl ForcedLagrangian<#n> for #subject {
             #stages
         }
-
-        #in_lanes
     }
 }

@@ -20,11 +20,12 @@ use syn::Ident;
 use super::super::derived::{self, Derived, Kind, Of, Routine};
 use super::super::emit::{StraightLine, Writing, inlined};
 use super::super::graph::Node;
-use super::super::model::{Home, Part, System};
+use super::super::model::{Home, System};
+use super::super::parts::Part;
 use super::super::rules::Points;
 use super::super::structure::{Engine, Structure};
 use super::item::{are_plain, as_written};
-use super::{EngineFunctions, Kernel, Memory, view};
+use super::{EngineFunctions, Kernel, LaneFunctions, Memory, notice, view};
 use frame::{parameter, tuple, unused};
 use matrices::Shape;
 
@@ -34,9 +35,12 @@ use matrices::Shape;
 pub fn system(system: &System<'_>, derived: Derived, is_portable: bool) -> TokenStream {
     let item = as_written(system, &derived.run, is_portable);
     let (view, description) = (view::definition(system), view::description(system));
+    let fused_by_calls = notice::fused_by_calls(system);
     let implementation = super::system(system, functions(system, derived, is_portable));
     quote! {
         #item
+
+        #fused_by_calls
 
         #view
 
@@ -57,16 +61,15 @@ fn functions(system: &System<'_>, derived: Derived, is_portable: bool) -> Engine
         text.functions_of(|of| matches!(of, Of::Gradient(Part::Rayleigh) | Of::Derivatives(Part::Rayleigh)));
     let kernels = derived.kernels.iter().map(|kernel| kernel.as_ref().map(|kernel| text.kernel(kernel)));
     let kernels = kernels.collect();
-    let [stages, stages_in_lanes] = match &derived.stages {
-        Some(Ok(stages)) => {
-            let in_lanes = stages.in_lanes.as_ref();
-            [Some(text.stages(&stages.at_once)), in_lanes.map(|functions| text.stages_in_lanes(functions))]
-        }
-        _ => [None, None],
+    let stages = match &derived.stages {
+        Some(Ok(stages)) => Some(text.stages(&stages.at_once)),
+        _ => None,
     };
+    let in_lanes = text.lane_functions();
     let [force, time_scale, by_input, cancelling_terms] =
         [Of::ForceDerivatives, Of::TimeScaleGradient, Of::ForceByInput, Of::CancellingTerms]
             .map(|asked| text.functions_of(|of| of == asked));
+    let constraints = text.functions_of(|of| matches!(of, Of::ConstraintGradients | Of::ConstraintCurvature));
     let by_parameters = text.functions_of(|of| matches!(of, Of::ByParameters(_)));
     let second_order = text.functions_of(|of| matches!(of, Of::Along(_)));
     let places = [0, 1].map(|home| text.places(&derived.places[home]));
@@ -77,12 +80,13 @@ fn functions(system: &System<'_>, derived: Derived, is_portable: bool) -> Engine
         rayleigh,
         force,
         time_scale,
+        constraints,
         by_input,
         cancelling_terms,
         places,
         stages,
-        stages_in_lanes,
         kernels,
+        in_lanes,
         by_parameters,
         second_order,
         names: names.into_iter().collect(),

@@ -20,10 +20,6 @@ pub struct Kernel {
     pub memory: Memory,
     /// The functions of an explicit step.
     pub explicit: Option<TokenStream>,
-    /// The functions of an explicit step of several members at once.
-    pub explicit_in_lanes: Option<TokenStream>,
-    /// The equation of several members at once.
-    pub in_lanes: Option<TokenStream>,
 }
 
 /// The memory of a run.
@@ -50,7 +46,7 @@ pub fn fused(
     let n = system.degrees.times(1);
     let subject = subject(system, system.home());
     let name = rule.ident();
-    let Kernel { step_kernel, momenta, diagonals, is_linear, memory, explicit, explicit_in_lanes, in_lanes } =
+    let Kernel { step_kernel, momenta, diagonals, is_linear, memory, explicit } =
         kernel.unwrap_or_else(|| of_terms(system, rule));
     let [inline_kernel, inline_momenta] = [&step_kernel, &momenta].map(inlined);
     let (matrix, kernel) = match diagonals {
@@ -64,6 +60,8 @@ pub fn fused(
         }
     };
     let memory = match memory {
+        // The others solve a step without a border.
+        _ if system.constraints.is_some() => quote!(::dalembert::generated::VelocityHistory<#scalar, #n>),
         Memory::Velocities => quote!(::dalembert::generated::VelocityHistory<#scalar, #n>),
         Memory::Matrix => quote!(::dalembert::generated::KeptMatrix<#scalar, Self::Matrix, #n>),
         Memory::Explicit => quote!(::dalembert::generated::ExplicitMemory<#scalar, Self::Matrix, #n>),
@@ -72,34 +70,24 @@ pub fn fused(
             quote!(::dalembert::generated::#name<#scalar, #n>)
         }
     };
+    let border = match &system.constraints {
+        None => quote!(::dalembert::generated::Free),
+        Some(count) => {
+            let m = count.times(1);
+            quote!(::dalembert::generated::Holonomic<#m>)
+        }
+    };
     let linear = is_linear.then(|| {
         quote!(
             const LINEAR: bool = true;
         )
     });
     // impl Explicit<2> for Ring
+    let explicit = explicit.filter(|_| system.constraints.is_none());
     let explicit = explicit.map(|functions| {
         quote! {
             #[automatically_derived]
             impl ::dalembert::generated::Explicit<#n> for #subject {
-                #functions
-            }
-        }
-    });
-    // impl ExplicitInLanes<2> for Ring
-    let explicit_in_lanes = explicit_in_lanes.map(|functions| {
-        quote! {
-            #[automatically_derived]
-            impl ::dalembert::generated::ExplicitInLanes<#n> for #subject {
-                #functions
-            }
-        }
-    });
-    // impl DiscreteInLanes<Midpoint, 2> for Ring
-    let in_lanes = in_lanes.map(|functions| {
-        quote! {
-            #[automatically_derived]
-            impl ::dalembert::generated::DiscreteInLanes<#name, #n> for #subject {
                 #functions
             }
         }
@@ -114,6 +102,7 @@ pub fn fused(
         impl Fused<#name, #n> for #subject {
             type Matrix = #matrix;
             type Memory = #memory;
+            type Border = #border;
             #linear
             #written_out
 
@@ -132,11 +121,7 @@ pub fn fused(
             #cancelling_terms
         }
 
-        #in_lanes
-
         #explicit
-
-        #explicit_in_lanes
     }
 }
 
@@ -155,7 +140,7 @@ fn of_terms(system: &System<'_>, rule: Rule) -> Kernel {
     let joint = rule.joint();
     // Midpoint::lagrangian_kernel(self, segment) + Midpoint::rayleigh_kernel(self, segment)
     let terms = |function: &str| {
-        let terms = system.parts().map(|part| format_ident!("{}_{function}", part.name()));
+        let terms = system.terms().map(|part| format_ident!("{}_{function}", part.name()));
         quote!(#(#name::#terms(self, segment))+*)
     };
     let [step_kernel, momenta] = match joint {
@@ -170,8 +155,6 @@ fn of_terms(system: &System<'_>, rule: Rule) -> Kernel {
         is_linear: joint.is_some_and(|joint| joint.is_linear),
         memory: joint.map_or(Memory::Velocities, |joint| Memory::OfRule(joint.memory)),
         explicit: None,
-        explicit_in_lanes: None,
-        in_lanes: None,
     }
 }
 
@@ -190,6 +173,9 @@ fn cancelling_terms(system: &System<'_>, rule: Rule) -> TokenStream {
 
 /// `impl OffersMethods<2> for Ring`: what an error can be asked of.
 pub fn offered_methods(system: &System<'_>, is_explicit: bool) -> Option<TokenStream> {
+    if system.constraints.is_some() {
+        return None;
+    }
     let mut rules = system.rules.of_displacement.iter();
     let rule =
         rules.find(|rule| if is_explicit { rule.may_be_explicit() } else { rule.entry().is_self_adjoint });

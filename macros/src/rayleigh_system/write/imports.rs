@@ -4,7 +4,8 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use syn::Ident;
 
-use super::super::model::{Home, Part, System};
+use super::super::model::{Home, System};
+use super::super::parts::Part;
 
 /// Imports the names that an implementation and its engine use, and no others: an unused import would warn in
 /// the user's crate.
@@ -33,13 +34,13 @@ fn of_traits(system: &System<'_>) -> Vec<&'static str> {
     if rules.ask_for_variations() || delegates(system) {
         names.extend(["Direction", "Variations"]);
     }
-    if system.rayleigh.is_some() {
+    if system.has(Part::Rayleigh) {
         names.push("Rayleigh");
     }
-    if system.has_force {
+    if system.has(Part::Force) {
         names.push("Force");
     }
-    if system.has_force {
+    if system.has(Part::Force) {
         names.push("CovectorDerivatives");
     }
     if rules.gauss {
@@ -67,5 +68,5 @@ fn of_traits(system: &System<'_>) -> Vec<&'static str> {
 /// Whether L or R of the view is that of the system.
 fn delegates(system: &System<'_>) -> bool {
     let is_own = |part: Part| part != Part::Force && system.home_of(part) == Home::System;
-    system.has_view() && system.parts().any(is_own)
+    system.has_view() && system.terms().any(is_own)
 }

@@ -5,7 +5,8 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
-use super::super::model::{Home, Part, System};
+use super::super::model::{Home, Source, System};
+use super::super::parts::Part;
 use super::super::syntax::with_words;
 use super::item::conditions;
 
@@ -37,11 +38,29 @@ pub fn owner(home: Home) -> TokenStream {
     }
 }
 
-/// The arguments of L, R or f after q and v: `self.u`, `self.t`.
-pub fn arguments(system: &System<'_>, part: Part) -> Vec<TokenStream> {
-    let input = (part == Part::Force && system.input.is_some()).then(|| quote!(self.u));
-    let time = system.timed.of(part).then(|| quote!(self.t));
-    input.into_iter().chain(time).collect()
+/// The arguments of a part: the vectors q and v as arrays, `self.u`, `self.t`.
+fn arguments(system: &System<'_>, part: Part) -> impl Iterator<Item = TokenStream> {
+    let all = [quote!((*q).into()), quote!((*v).into()), quote!(self.u), quote!(self.t)];
+    system.takes(part).unwrap_or_default().choose(all)
+}
+
+/// The plain value of a part at the vectors q and v.
+pub fn value(system: &System<'_>, part: Part) -> TokenStream {
+    match system.source {
+        Source::Block(_) => {
+            let function = format_ident!("{}", part.name());
+            let (owner, arguments) = (owner(system.home_of(part)), arguments(system, part));
+            quote!(#owner.#function(#(#arguments),*))
+        }
+        Source::Function(source) => {
+            let name = &source.item.sig.ident;
+            let fields = source.fields().map(|(field, _)| quote!(self.#field));
+            let index = system
+                .has(Part::Rayleigh)
+                .then(|| if part == Part::Lagrangian { quote!(.0) } else { quote!(.1) });
+            quote!(#name((*q).into(), (*v).into(), #(#fields),*) #index)
+        }
+    }
 }
 
 /// Tokens of the user's functions, `self.k` and `Self::K`, as seen from the view.
@@ -67,10 +86,10 @@ pub fn definition(system: &System<'_>) -> Option<TokenStream> {
     let conditions = conditions(system.source);
     let m = system.input.as_ref().map(|input| input.times(1));
     let input = m.iter();
-    let time = system.timed.any().then_some(scalar).into_iter();
+    let time = system.is_timed().then_some(scalar).into_iter();
     let (time_field, time_parameter, t) = (time.clone(), time.clone(), time.clone().map(|_| quote!(t)));
     let fields = quote!(#(u: [#scalar; #input],)* #(t: #time_field),*);
-    let (function, text, about) = match (&m, system.timed.any()) {
+    let (function, text, about) = match (&m, system.is_timed()) {
         (Some(_), false) => {
             ("driven", " The system with the input `u` held over the step.", "its input held over a step")
         }
@@ -124,7 +143,7 @@ pub fn description(system: &System<'_>) -> TokenStream {
         quote!([#view #function])
     });
     let input = system.input.as_ref().map(|input| input.times(1)).map(|m| quote!(, input u #m));
-    let time = system.timed.any().then(|| quote!(, time t));
+    let time = system.is_timed().then(|| quote!(, time t));
     let parameters = (!system.parameters.is_empty()).then(|| {
         let names = parameter_names(system);
         quote!(, parameters [#(#names),*])
@@ -144,7 +163,7 @@ pub fn parameter_names(system: &System<'_>) -> impl Iterator<Item = String> {
 /// `fn later`, where there is a time.
 pub fn later(system: &System<'_>) -> Option<TokenStream> {
     let scalar = &system.scalar;
-    system.timed.any().then(|| {
+    system.is_timed().then(|| {
         quote! {
             #[inline]
             fn later<T>(&self, elapsed: #scalar, evaluate: impl FnOnce(&Self) -> T) -> T {
@@ -174,7 +193,7 @@ pub fn delegation(system: &System<'_>, part: Part, verification: Option<TokenStr
             ("lagrangian", "Lagrangian", Some(associated), later(system))
         }
         Part::Rayleigh => ("rayleigh", "Rayleigh", None, None),
-        Part::Force => return None,
+        Part::Force | Part::TimeScale | Part::Constraints => return None,
     };
     let [value, gradient, derivatives, variations] =
         ["", "_gradient", "_derivatives", "_variations"].map(|suffix| format_ident!("{function}{suffix}"));

@@ -178,6 +178,7 @@ const _: () = {
     impl Fused<Trapezoidal, 1> for Bead {
         type Matrix = SMatrix<f64, 1, 1>;
         type Memory = ::dalembert::generated::ExplicitMemory<f64, Self::Matrix, 1>;
+        type Border = ::dalembert::generated::Free;
         const LINEAR: bool = true;
         const WRITTEN_OUT: bool = true;
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
@@ -251,7 +252,7 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl ::dalembert::generated::ExplicitInLanes<1> for Bead {
+    impl ::dalembert::generated::Gathered<1> for Bead {
         type Fields<const W: usize> = ([Members<f64, W>; 5], [Mask<W>; 1]);
         fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W> {
             (
@@ -266,6 +267,9 @@ const _: () = {
                 Mask::of_each(systems.map(|system| [system.has_wall])),
             )
         }
+    }
+    #[automatically_derived]
+    impl ::dalembert::generated::ExplicitInLanes<1> for Bead {
         #[inline(always)]
         fn velocity_momenta_in_lanes<const W: usize>(
             fields: &Self::Fields<W>,

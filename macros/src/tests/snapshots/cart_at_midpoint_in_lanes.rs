@@ -1,4 +1,4 @@
-impl ::dalembert::generated::DiscreteInLanes<Midpoint, 2> for Cart {
+impl ::dalembert::generated::Gathered<2> for Cart {
         type Fields<const W: usize> = [Members<f64, W>; 9];
         fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W> {
             Members::of_each(
@@ -11,6 +11,10 @@ impl ::dalembert::generated::DiscreteInLanes<Midpoint, 2> for Cart {
                     }),
             )
         }
+    }
+    #[automatically_derived]
+    impl ::dalembert::generated::DiscreteInLanes<::dalembert::generated::Midpoint, 2>
+    for Cart {
         #[inline(always)]
         fn step_kernel_in_lanes<const W: usize>(
             fields: &Self::Fields<W>,
@@ -71,4 +75,3 @@ impl ::dalembert::generated::DiscreteInLanes<Midpoint, 2> for Cart {
             [[t3 - t4, t2 - t5], [t3 + t4, t2 + t5]]
         }
     }
-    

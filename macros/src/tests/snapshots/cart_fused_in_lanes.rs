@@ -1,4 +1,4 @@
-impl ::dalembert::generated::ForcedLagrangianInLanes<2> for Cart {
+impl ::dalembert::generated::Gathered<2> for Cart {
         type Fields<const W: usize> = [Members<f64, W>; 8];
         fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W> {
             Members::of_each(
@@ -10,6 +10,9 @@ impl ::dalembert::generated::ForcedLagrangianInLanes<2> for Cart {
                     }),
             )
         }
+    }
+    #[automatically_derived]
+    impl ::dalembert::generated::ForcedLagrangianInLanes<2> for Cart {
         type Kept<const W: usize> = [Members<f64, W>; 3];
         type AnchorsInLanes<const W: usize> = (
             [::dalembert::generated::Angle<Members<f64, W>, true>; 1],

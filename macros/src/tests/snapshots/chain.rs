@@ -173,6 +173,7 @@ const _: () = {
     impl Fused<Midpoint, 4> for Chain {
         type Matrix = ::dalembert::generated::Banded<f64, 4, 3>;
         type Memory = ::dalembert::generated::KeptMatrix<f64, Self::Matrix, 4>;
+        type Border = ::dalembert::generated::Free;
         const WRITTEN_OUT: bool = true;
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
         #[inline]

@@ -338,6 +338,7 @@ const _: () = {
     impl Fused<Midpoint, 1> for DrivenArm<'_> {
         type Matrix = SMatrix<f64, 1, 1>;
         type Memory = ::dalembert::generated::VelocityHistory<f64, 1>;
+        type Border = ::dalembert::generated::Free;
         const WRITTEN_OUT: bool = true;
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
         #[inline]

@@ -162,6 +162,7 @@ const _: () = {
     impl Fused<Trapezoidal, 2> for Ring {
         type Matrix = ::dalembert::generated::Banded<f64, 2, 1>;
         type Memory = ::dalembert::generated::ExplicitMemory<f64, Self::Matrix, 2>;
+        type Border = ::dalembert::generated::Free;
         const LINEAR: bool = true;
         const WRITTEN_OUT: bool = true;
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.

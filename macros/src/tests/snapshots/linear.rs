@@ -166,6 +166,7 @@ const _: () = {
     impl Fused<Midpoint, 2> for Linear {
         type Matrix = SMatrix<f64, 2, 2>;
         type Memory = ::dalembert::generated::KeptMatrix<f64, Self::Matrix, 2>;
+        type Border = ::dalembert::generated::Free;
         const LINEAR: bool = true;
         const WRITTEN_OUT: bool = true;
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.

@@ -1,4 +1,4 @@
-impl ::dalembert::generated::ExplicitInLanes<1> for DrivenShaken<'_> {
+impl ::dalembert::generated::Gathered<1> for DrivenShaken<'_> {
         type Fields<const W: usize> = ([Members<f64, W>; 3], Members<f64, W>);
         fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W> {
             (
@@ -20,6 +20,9 @@ impl ::dalembert::generated::ExplicitInLanes<1> for DrivenShaken<'_> {
             let (known, t) = *fields;
             (known, t + *elapsed)
         }
+    }
+    #[automatically_derived]
+    impl ::dalembert::generated::ExplicitInLanes<1> for DrivenShaken<'_> {
         #[inline(always)]
         fn velocity_momenta_in_lanes<const W: usize>(
             fields: &Self::Fields<W>,
@@ -39,8 +42,7 @@ impl ::dalembert::generated::ExplicitInLanes<1> for DrivenShaken<'_> {
             [t1 - (1.0 + t.sin() * a) * q[0].sin()]
         }
     }
-    
-impl ::dalembert::generated::ForcedLagrangianInLanes<1> for GrowingAtTime<'_> {
+impl ::dalembert::generated::Gathered<1> for GrowingAtTime<'_> {
         type Fields<const W: usize> = ([Members<f64, W>; 1], Members<f64, W>);
         fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W> {
             (
@@ -56,6 +58,9 @@ impl ::dalembert::generated::ForcedLagrangianInLanes<1> for GrowingAtTime<'_> {
             let (known, t) = *fields;
             (known, t + *elapsed)
         }
+    }
+    #[automatically_derived]
+    impl ::dalembert::generated::ForcedLagrangianInLanes<1> for GrowingAtTime<'_> {
         type Kept<const W: usize> = [Members<f64, W>; 2];
         type AnchorsInLanes<const W: usize> = (
             [::dalembert::generated::Angle<Members<f64, W>>; 1],

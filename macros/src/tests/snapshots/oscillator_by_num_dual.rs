@@ -240,6 +240,7 @@ const _: () = {
     impl Fused<Midpoint, 1> for Oscillator {
         type Matrix = SMatrix<f64, 1, 1>;
         type Memory = ::dalembert::generated::VelocityHistory<f64, 1>;
+        type Border = ::dalembert::generated::Free;
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
         #[inline]
         fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {

@@ -162,6 +162,7 @@ const _: () = {
     impl Fused<Midpoint, 2> for Ring {
         type Matrix = SMatrix<f64, 2, 2>;
         type Memory = ::dalembert::generated::VelocityHistory<f64, 2>;
+        type Border = ::dalembert::generated::Free;
         const WRITTEN_OUT: bool = true;
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄.
         #[inline]

@@ -5,13 +5,14 @@ use proc_macro2::TokenStream;
 use super::super::oracle::{Expression, Random};
 
 /// Attributes that ask for every kind of function among them.
-const ATTRIBUTES: [&str; 6] = [
+const ATTRIBUTES: [&str; 7] = [
     "rule = [midpoint, trapezoidal, gauss], step_derivatives = second, parameters = [m, k]",
     "rule = [trapezoidal, midpoint, one_sided]",
     "rule = [midpoint, gauss], lanes = [midpoint, gauss]",
     "rule = trapezoidal, lanes = explicit",
     "rule = [midpoint, gauss], lanes = [midpoint, gauss], multiply_add = fused",
     "rule = gauss",
+    "rule = [trapezoidal, midpoint]",
 ];
 
 /// A system with random L, R and f, and what is asked for.
@@ -36,6 +37,9 @@ pub fn system(seed: u64) -> (TokenStream, TokenStream) {
     let force = if is_joint { "" } else { &force };
     let scale = "fn time_scale(&self, q: [f64; 2]) -> f64 { 1.0 + self.m * q[0].cos() * q[1] }";
     let scale = if attribute == "rule = gauss" { scale } else { "" };
+    let constraints =
+        "fn constraints(&self, q: [f64; 2]) -> [f64; 1] { [self.k * q[0] * q[0] * q[1].sin() - self.m] }";
+    let constraints = if attribute == "rule = [trapezoidal, midpoint]" { constraints } else { "" };
     let item = format!(
         "impl Random {{
             fn lagrangian(&self, q: [f64; 2], v: [f64; 2]{t}) -> f64 {{
@@ -44,6 +48,7 @@ pub fn system(seed: u64) -> (TokenStream, TokenStream) {
             fn rayleigh(&self, q: [f64; 2], v: [f64; 2]) -> f64 {{ let _ = q; {r} }}
             {force}
             {scale}
+            {constraints}
         }}"
     );
     (attribute.parse().expect("tokens"), item.parse().expect("tokens"))

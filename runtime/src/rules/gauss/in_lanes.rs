@@ -17,149 +17,133 @@ use allowances::SlackOfMembers;
 use sweeps::{Solved, SweepsOf};
 
 use super::Gauss;
-use super::coefficients::Coefficients;
 use super::fixed_point::MAX_ITERATIONS;
 use super::history::StageHistory;
 use super::problem::{Solver, steps};
 use super::slack::{MAX_SWEEPS, Slack};
 use crate::numbers::members::{coordinate_by_coordinate, each_stage, member, stage_by_stage, write_member};
-use crate::numbers::{Compensated, CompensatedMembers, Mask, MemberVector, Members, Scalar};
-use crate::step::in_lanes::clocks::Clocks;
-use crate::step::{Memory, State};
+use crate::numbers::{Mask, MemberVector, Members};
+use crate::step::{Ends, FlowInLanes, LaneRuns, Memory};
 use crate::system::ForcedLagrangianInLanes;
 
-/// W members on their way by a Gauss rule.
+/// Values kept of W members on their way by a Gauss rule.
 #[derive(Clone, Copy, Debug)]
-pub struct StagesInLanes<T, F, const N: usize, const S: usize, const W: usize> {
-    /// Members that have begun and not failed: their q and p equal those of their own run.
-    is_sound: Mask<W>,
-    /// Members that have not stepped yet.
-    is_new: Mask<W>,
+pub struct StagesInLanes<T, const N: usize, const S: usize, const W: usize> {
     /// Members with velocities that sweeps can start from: the fixed point solved their last step or, before
     /// the first, the velocity of their state is known.
     has_contracted: Mask<W>,
-    fields: F,
-    h: T,
     /// The velocities V_i of the last step; before the first, the velocity to start from.
     v: [MemberVector<T, N, W>; S],
-    q: CompensatedMembers<T, N, W>,
-    p: CompensatedMembers<T, N, W>,
-    /// Steps that a member has taken alone.
-    alone: u64,
     /// The slack that members start with; `None` where stages are solved to rounding.
     slack: Option<Slack<T>>,
     left: SlackOfMembers<T, W>,
-    /// Kept where L, R or f takes the time.
-    clocks: Clocks<W>,
 }
 
 // As many sweeps to an allowance as to rounding.
 const _: () = assert!(MAX_SWEEPS == MAX_ITERATIONS);
 
-impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesInLanes<T, F, N, S, W> {
-    const COEFFICIENTS: &'static Coefficients<S> = &Gauss::<S>::COEFFICIENTS;
+impl<L: ForcedLagrangianInLanes<N>, const N: usize, const S: usize> FlowInLanes<Gauss<S>, N> for L {
+    type Kept<const W: usize> = StagesInLanes<L::Scalar, N, S, W>;
 
-    /// No member yet.
-    pub(crate) fn new(fields: F, h: T) -> Self {
-        Self {
-            is_sound: Mask::splat(false),
-            is_new: Mask::splat(false),
+    /// Sweeps go on until the last member is solved: the more there are, the more wait.
+    const MOST_LANES: usize = 16;
+
+    fn kept<const W: usize>(_h: L::Scalar) -> Self::Kept<W> {
+        StagesInLanes {
             has_contracted: Mask::splat(false),
-            fields,
-            h,
-            v: [[Members::splat(T::zero()); N]; S],
-            q: CompensatedMembers::zero(),
-            p: CompensatedMembers::zero(),
-            alone: 0,
+            v: [[Members::splat(nalgebra::zero()); N]; S],
             slack: None,
             left: SlackOfMembers::none(),
-            clocks: Clocks::new(),
         }
     }
 
-    /// Solves the stages of all members, also of those put in later, as far as an error of `error` after so
-    /// many steps from their starts needs.
-    pub(crate) fn leave(&mut self, error: f64, steps: u64) {
-        let slack = Slack::new(error, steps, 0.0);
-        self.slack = Some(slack);
-        for lane in 0..W {
-            self.left.write(lane, slack);
-        }
-    }
-
-    /// How many steps members have taken alone.
-    pub(crate) fn steps_alone(&self) -> u64 {
-        self.alone
-    }
-
-    /// Takes the fields of the systems that are now in the lanes.
-    pub(crate) fn gather(&mut self, fields: F) {
-        self.fields = fields;
-    }
-
-    /// Puts a member into a lane, at its start; `begins`: whether a run does.
-    pub(crate) fn put<L>(&mut self, lane: usize, system: &L, start: &State<T, N>, begins: bool)
-    where
-        L: ForcedLagrangianInLanes<N, Scalar = T, Fields<W> = F>,
-    {
-        let velocity =
-            begins.then(|| system.later(T::zero(), |system| start.velocity(system)).ok()).flatten();
-        self.is_sound.0[lane] = begins;
-        self.is_new.0[lane] = true;
-        self.clocks.restart(lane);
-        self.has_contracted.0[lane] = velocity.is_some();
-        for v in &mut self.v {
+    fn put<const W: usize>(runs: &mut LaneRuns<'_, L, Gauss<S>, N, W>, lane: usize) -> bool {
+        let (system, start) = (runs.systems[lane], runs.values(lane));
+        let velocity = system.later(nalgebra::zero(), |system| start.velocity(system)).ok();
+        let StagesInLanes { has_contracted, v, slack, left } = &mut runs.kept;
+        has_contracted.0[lane] = velocity.is_some();
+        for v in v {
             write_member(v, lane, &velocity.unwrap_or_else(nalgebra::zero));
         }
-        if let Some(slack) = self.slack {
-            self.left.write(lane, slack);
+        if let Some(slack) = *slack {
+            left.write(lane, slack);
         }
-        self.q.write(lane, &Compensated::new(start.q));
-        self.p.write(lane, &Compensated::new(start.p));
+        true
     }
 
-    /// q and p of the members, and which members have begun and not failed.
-    pub(crate) fn standing(&self) -> (&MemberVector<T, N, W>, &MemberVector<T, N, W>, Mask<W>) {
-        (&self.q.value, &self.p.value, self.is_sound)
+    fn leave_unsolved<const W: usize>(kept: &mut Self::Kept<W>, error: f64, steps: u64) {
+        let slack = Slack::new(error, steps, 0.0);
+        kept.slack = Some(slack);
+        for lane in 0..W {
+            kept.left.write(lane, slack);
+        }
     }
 
-    /// Advances the members that have begun and not failed by `count` steps.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn advance<L>(&mut self, systems: [&L; W], count: u64)
-    where
-        L: ForcedLagrangianInLanes<N, Scalar = T, Fields<W> = F>,
-    {
-        let steps = steps::<T, S>(self.h);
-        let zero = [[Members::splat(T::zero()); N]; S];
+    fn advance_in_lanes<const W: usize>(runs: &mut LaneRuns<'_, L, Gauss<S>, N, W>, count: u64) {
+        let steps = steps::<L::Scalar, S>(runs.h);
+        let zero = [[Members::splat(nalgebra::zero()); N]; S];
         let mut sweeps = SweepsOf::<L, N, S, W>::new();
         let mut solved = Solved { is_solved: Mask::splat(false), v: zero, rate: zero };
-        for _ in 0..count {
-            let mut together = self.is_sound & self.has_contracted;
+        for step in 0..count {
+            let mut together = runs.is_sound & runs.kept.has_contracted;
             // The sweeps that a first step takes more than others cost all lanes as much as a quarter of them
             // alone.
-            let new = (together & self.is_new).0.iter().filter(|&&is_new| is_new).count();
+            let new = (together & runs.is_new).0.iter().filter(|&&is_new| is_new).count();
             if 4 * new < W {
-                together = together & !self.is_new;
+                together = together & !runs.is_new;
             }
-            let mut is_alone = self.is_sound;
+            let mut is_alone = runs.is_sound;
             if together.0.contains(&true) {
-                self.solve::<L>(&steps, together, &mut sweeps, &mut solved);
-                let has_stepped = self.follow(&steps, &solved);
-                if L::IS_TIMED {
-                    self.clocks.follow(has_stepped);
-                }
-                is_alone = is_alone & !has_stepped;
+                runs.solve(step, &steps, together, &mut sweeps, &mut solved);
+                is_alone = is_alone & !runs.follow(&steps, &solved);
             }
             if is_alone.0.contains(&true) {
-                self.step_alone(systems, is_alone);
+                runs.step_alone(is_alone, step);
             }
         }
     }
 
+    fn alone<const W: usize>(
+        runs: &mut LaneRuns<'_, L, Gauss<S>, N, W>,
+        lane: usize,
+        elapsed: L::Scalar,
+    ) -> Option<Ends<L::Scalar, N>> {
+        let (system, state, h) = (runs.systems[lane], runs.values(lane), runs.h);
+        let kept = &mut runs.kept;
+        let mut history = StageHistory::<L::Scalar, N, S>::default();
+        if !runs.is_new.0[lane] {
+            let v = core::array::from_fn(|j| member(&kept.v[j], lane));
+            let solver = if kept.has_contracted.0[lane] { Solver::FixedPoint } else { Solver::Newton };
+            history = StageHistory::of_step(&v, h, solver, [runs.q.member(lane), runs.p.member(lane)]);
+        }
+        if let Some(slack) = kept.slack {
+            let [q_change, p_change] = kept.left.change;
+            let change = [q_change.0[lane], p_change.0[lane]];
+            history = history.with_slack(Some(Slack { steps: kept.left.steps[lane], change, ..slack }));
+        }
+        let step = system
+            .later(elapsed, |system| Memory::<L, Gauss<S>, N>::advance(&mut history, system, &state, h));
+        step.ok()?;
+        kept.has_contracted.0[lane] = history.solver() == Solver::FixedPoint;
+        if let Some(slack) = history.slack() {
+            kept.left.write(lane, slack);
+        }
+        each_stage!(j => {
+            write_member(&mut kept.v[j], lane, &history.velocities()[j]);
+        });
+        let [q, p] = history.ends();
+        Some(Ends { q, p })
+    }
+}
+
+impl<L: ForcedLagrangianInLanes<N>, const N: usize, const S: usize, const W: usize>
+    LaneRuns<'_, L, Gauss<S>, N, W>
+{
     /// Takes the step that was solved for, and returns which members have taken it.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn follow(&mut self, steps: &[T; S], solved: &Solved<T, N, S, W>) -> Mask<W> {
-        let zero = [Members::splat(T::zero()); N];
+    fn follow(&mut self, steps: &[L::Scalar; S], solved: &Solved<L::Scalar, N, S, W>) -> Mask<W> {
+        let zero = [Members::splat(nalgebra::zero()); N];
         let (mut displacement, mut impulse) = (zero, zero);
         stage_by_stage!(j => {
             coordinate_by_coordinate!(a => {
@@ -174,9 +158,9 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
             let is_finite = q.value[a].is_finite() & p.value[a].is_finite() & velocity.is_finite();
             has_stepped = has_stepped & is_finite;
         });
-        if self.slack.is_some() {
+        if self.kept.slack.is_some() {
             let steps = [[&self.q.value, &q.value], [&self.p.value, &p.value]];
-            self.left.follow(has_stepped, steps);
+            self.kept.left.follow(has_stepped, steps);
         }
         self.is_new = self.is_new & !has_stepped;
         let only_some = has_stepped.0.contains(&false);
@@ -184,50 +168,9 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         self.p.replace(only_some, has_stepped, &p);
         stage_by_stage!(j => {
             coordinate_by_coordinate!(a => {
-                self.v[j][a].replace(only_some, has_stepped, solved.v[j][a]);
+                self.kept.v[j][a].replace(only_some, has_stepped, solved.v[j][a]);
             });
         });
         has_stepped
-    }
-
-    /// Takes the step of some members, each by the functions of its own run.
-    #[cold]
-    #[inline(never)]
-    fn step_alone<L>(&mut self, systems: [&L; W], is_alone: Mask<W>)
-    where
-        L: ForcedLagrangianInLanes<N, Scalar = T, Fields<W> = F>,
-    {
-        for (lane, system) in systems.into_iter().enumerate().filter(|(lane, _)| is_alone.0[*lane]) {
-            self.alone += 1;
-            let mut history = StageHistory::<T, N, S>::default();
-            let (q, p) = (self.q.member(lane), self.p.member(lane));
-            let state = State { q: q.value, p: p.value };
-            if !self.is_new.0[lane] {
-                let v = core::array::from_fn(|j| member(&self.v[j], lane));
-                let solver = if self.has_contracted.0[lane] { Solver::FixedPoint } else { Solver::Newton };
-                history = StageHistory::of_step(&v, self.h, solver, [q, p]);
-            }
-            if let Some(slack) = self.slack {
-                let [q_change, p_change] = self.left.change;
-                let change = [q_change.0[lane], p_change.0[lane]];
-                history = history.with_slack(Some(Slack { steps: self.left.steps[lane], change, ..slack }));
-            }
-            let step = system.later(self.clocks.elapsed_of(lane, self.h), |system| {
-                Memory::<L, Gauss<S>, N>::advance(&mut history, system, &state, self.h)
-            });
-            self.clocks.follow_one(lane);
-            self.is_sound.0[lane] = step.is_ok();
-            self.is_new.0[lane] = false;
-            self.has_contracted.0[lane] = history.solver() == Solver::FixedPoint;
-            if let Some(slack) = history.slack() {
-                self.left.write(lane, slack);
-            }
-            let [q, p] = history.ends();
-            self.q.write(lane, &q);
-            self.p.write(lane, &p);
-            each_stage!(j => {
-                write_member(&mut self.v[j], lane, &history.velocities()[j]);
-            });
-        }
     }
 }

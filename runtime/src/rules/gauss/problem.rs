@@ -46,9 +46,9 @@ macro_rules! in_width {
 pub(super) use in_width;
 
 /// The coefficients of S stages in W lanes.
-struct InLanes<const S: usize, const W: usize>;
+struct WideCoefficients<const S: usize, const W: usize>;
 
-impl<const S: usize, const W: usize> InLanes<S, W> {
+impl<const S: usize, const W: usize> WideCoefficients<S, W> {
     const NODES: [f64; W] = widened(&Gauss::<S>::COEFFICIENTS.nodes);
 
     const SHARES: [[f64; W]; S] = {
@@ -135,7 +135,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         x: &LaneVector<T, N, W>,
     ) -> LaneVector<T, N, W> {
         let steps = Lanes::<T, W>(array::from_fn(|i| self.steps[i.min(S - 1)]));
-        let columns = &InLanes::<S, W>::SHARES;
+        let columns = &WideCoefficients::<S, W>::SHARES;
         let is_fused = L::STRUCTURE.fused_multiply_add;
         let mut at = *x;
         for a in 0..N {
@@ -193,7 +193,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         q: &LaneVector<T, N, W>,
         v: &LaneVector<T, N, W>,
     ) -> Stages<T, N, W> {
-        let elapsed = Lanes(array::from_fn(|i| T::constant(InLanes::<S, W>::NODES[i]) * self.h));
+        let elapsed = Lanes(array::from_fn(|i| T::constant(WideCoefficients::<S, W>::NODES[i]) * self.h));
         self.system.stages_in_time(anchors, &elapsed, q, v, |rate| self.momenta(rate))
     }
 

@@ -63,9 +63,9 @@ where
 }
 
 /// The modes of S stages side by side, and how stages in W lanes follow from them.
-struct InLanes<const S: usize, const M: usize, const W: usize>;
+struct WideModes<const S: usize, const M: usize, const W: usize>;
 
-impl<const S: usize, const M: usize, const W: usize> InLanes<S, M, W> {
+impl<const S: usize, const M: usize, const W: usize> WideModes<S, M, W> {
     const MODES: [Mode<S>; S] = modes(&Gauss::<S>::COEFFICIENTS);
 
     const EIGENVALUES: [[f64; M]; 2] = {
@@ -147,7 +147,7 @@ struct Factored<T, const N: usize, const S: usize, const M: usize> {
 impl<T: Scalar, const N: usize, const S: usize, const M: usize> Factored<T, N, S, M> {
     /// Factors the matrix of every mode; `None` where a pivot is 0 or not finite.
     fn new(local: &Local<T, N>, h: T) -> Option<Self> {
-        let [re, im] = &InLanes::<S, M, S>::EIGENVALUES;
+        let [re, im] = &WideModes::<S, M, S>::EIGENVALUES;
         let along = Complex { re: Lanes::constants(re) * h, im: Lanes::constants(im) * h };
         let square = along.times(along);
         let mut rows = [[Complex::zero(); N]; N];
@@ -207,7 +207,7 @@ impl<T: Scalar, const N: usize, const S: usize, const M: usize> Corrector<T, N> 
         let mut share = [Complex::zero(); N];
         for a in 0..N {
             for i in 0..S {
-                let [re, im] = &InLanes::<S, M, W>::LEFT[i];
+                let [re, im] = &WideModes::<S, M, W>::LEFT[i];
                 let residual = stages.residual[a].0[i.min(W - 1)];
                 share[a].re = Lanes::constants(re).times_plus(false, residual, share[a].re);
                 share[a].im = Lanes::constants(im).times_plus(false, residual, share[a].im);
@@ -217,7 +217,7 @@ impl<T: Scalar, const N: usize, const S: usize, const M: usize> Corrector<T, N> 
         let mut correction = splat::<T, N, W>(&SVector::zeros());
         for a in 0..N {
             for k in 0..M {
-                let [re, im] = &InLanes::<S, M, W>::RIGHT[k];
+                let [re, im] = &WideModes::<S, M, W>::RIGHT[k];
                 correction[a] = Lanes::constants(re).times_plus(false, z[a].re.0[k], correction[a]);
                 correction[a] = Lanes::constants(im).times_plus(false, -z[a].im.0[k], correction[a]);
             }

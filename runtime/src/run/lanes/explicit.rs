@@ -6,28 +6,22 @@
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 
-use super::{begins, state_if_sound};
-use crate::numbers::members::{difference, each_coordinate, member, write_member};
-use crate::numbers::{Mask, MatricesOfMembers, MemberVector, Members, NewtonMatrix, Scalar};
-use crate::rules::Trapezoidal;
-use crate::run::{Composition, ExplicitInLanes, InLanes};
-use crate::step::in_lanes::clocks::Clocks;
-use crate::step::newton::AT_FLOOR;
-use crate::step::{Flow, State};
+use core::ops::Range;
 
-/// W members on their way by explicit substeps, S in a step.
+use crate::numbers::members::{difference, each_coordinate, write_member};
+use crate::numbers::{
+    CompensatedMembers, Mask, MatricesOfMembers, MemberVector, Members, NewtonMatrix, Scalar,
+};
+use crate::rules::Trapezoidal;
+use crate::run::{Composition, ExplicitInLanes};
+use crate::step::in_lanes::newton::MatricesOf;
+use crate::step::newton::AT_FLOOR;
+use crate::step::{Ends, Flow, FlowInLanes, LaneRuns};
+use crate::system::Lagrangian;
+
+/// Values kept of W members on their way by explicit substeps, S in a step.
 #[derive(Clone, Copy, Debug)]
-pub struct ExplicitSteps<T, F, A, const N: usize, const S: usize, const W: usize> {
-    /// Members that have not failed: their q and p equal those of their own runs.
-    is_sound: Mask<W>,
-    /// Members that take their first step next.
-    is_new: Mask<W>,
-    h: T,
-    /// Kept where the force takes the time.
-    clocks: Clocks<W>,
-    fields: F,
-    q: MemberVector<T, N, W>,
-    p: MemberVector<T, N, W>,
+pub struct SubstepsInLanes<T, A, const N: usize, const S: usize, const W: usize> {
     /// G(q), from the end of the first step on.
     force: MemberVector<T, N, W>,
     /// The first half and the middle, with which the others are the same.
@@ -44,85 +38,30 @@ struct Substep<T, A, const N: usize, const W: usize> {
     at_rest: MemberVector<T, N, W>,
 }
 
-/// [`ExplicitSteps`] of the system type `L`.
-type Of<L, const N: usize, const S: usize, const W: usize> = ExplicitSteps<
-    <L as crate::system::Lagrangian<N>>::Scalar,
-    <L as ExplicitInLanes<N>>::Fields<W>,
-    <<L as crate::step::Fused<Trapezoidal, N>>::Matrix as NewtonMatrix<
-        <L as crate::system::Lagrangian<N>>::Scalar,
-        N,
-    >>::OfMembers<W>,
-    N,
-    S,
-    W,
->;
+/// [`SubstepsInLanes`] of the system type `L`.
+type Of<L, const N: usize, const S: usize, const W: usize> =
+    SubstepsInLanes<<L as Lagrangian<N>>::Scalar, MatricesOf<L, Trapezoidal, N, W>, N, S, W>;
 
-/// The members at their starts.
-fn started<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
-    systems: [&L; W],
-    starts: &[State<L::Scalar, N>; W],
-    h: L::Scalar,
+/// The values kept of no member yet, each substep this share of h.
+fn kept<T: Scalar, A: MatricesOfMembers<T, N, W>, const N: usize, const S: usize, const W: usize>(
+    h: T,
     shares: &[f64; S],
-) -> Of<L, N, S, W> {
-    let zero = [Members::splat(L::Scalar::constant(0.0)); N];
-    let mut steps = Of::<L, N, S, W> {
-        is_sound: Mask::splat(false),
-        is_new: Mask::splat(false),
-        h,
-        clocks: Clocks::new(),
-        fields: L::fields(systems),
-        q: zero,
-        p: zero,
-        force: zero,
-        substeps: shares.map(|share| Substep {
-            h: L::Scalar::constant(share) * h,
-            matrices: MatricesOfMembers::zero(),
-            at_rest: zero,
-        }),
-    };
-    for (lane, (system, start)) in systems.into_iter().zip(starts).enumerate() {
-        put(&mut steps, lane, system, start, h);
-    }
-    steps
-}
-
-/// Puts a member into a lane, at its start.
-fn put<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
-    steps: &mut Of<L, N, S, W>,
-    lane: usize,
-    system: &L,
-    start: &State<L::Scalar, N>,
-    h: L::Scalar,
-) {
-    steps.is_sound.0[lane] = begins(lane, system, start, h) && prepare(steps, lane, system);
-    steps.is_new.0[lane] = true;
-    steps.clocks.restart(lane);
-    write_member(&mut steps.q, lane, &start.q);
-    write_member(&mut steps.p, lane, &start.p);
-}
-
-/// Members put into the lanes that have a start.
-fn refill<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
-    steps: &mut Of<L, N, S, W>,
-    systems: [&L; W],
-    starts: &[Option<State<L::Scalar, N>>; W],
-    h: L::Scalar,
-) {
-    steps.fields = L::fields(systems);
-    for (lane, (system, start)) in systems.into_iter().zip(starts).enumerate() {
-        if let Some(start) = start {
-            put(steps, lane, system, start, h);
-        }
-    }
+) -> SubstepsInLanes<T, A, N, S, W> {
+    let zero = [Members::splat(T::zero()); N];
+    let substep = |share| Substep { h: T::constant(share) * h, matrices: A::zero(), at_rest: zero };
+    SubstepsInLanes { force: zero, substeps: shares.map(substep) }
 }
 
 /// Factors the matrices of one member; whether they can be.
-fn prepare<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
-    steps: &mut Of<L, N, S, W>,
+fn put<L, M, const N: usize, const S: usize, const W: usize>(
+    runs: &mut LaneRuns<'_, L, M, N, W>,
     lane: usize,
-    system: &L,
-) -> bool {
-    for substep in &mut steps.substeps {
+) -> bool
+where
+    L: ExplicitInLanes<N> + FlowInLanes<M, N, Kept<W> = Of<L, N, S, W>>,
+{
+    let system = runs.systems[lane];
+    for substep in &mut runs.kept.substeps {
         let matrix = system.step_matrix(substep.h);
         let Some(factored) = matrix.factored() else { return false };
         substep.matrices.write(lane, &matrix, &factored);
@@ -133,79 +72,81 @@ fn prepare<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize
 }
 
 /// q and p of the members, and which of them have not failed.
-type Standing<T, const N: usize, const W: usize> = (MemberVector<T, N, W>, MemberVector<T, N, W>, Mask<W>);
+type Standing<T, const N: usize, const W: usize> =
+    (CompensatedMembers<T, N, W>, CompensatedMembers<T, N, W>, Mask<W>);
 
 /// The first step of each member that is new, its own; `start` is where they stood before the others went on.
 #[cold]
 #[inline(never)]
-fn first_steps<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
-    steps: &mut Of<L, N, S, W>,
-    systems: [&L; W],
+fn first_steps<L: FlowInLanes<M, N>, M, const N: usize, const W: usize>(
+    runs: &mut LaneRuns<'_, L, M, N, W>,
     (q, p, is_sound): &Standing<L::Scalar, N, W>,
 ) {
-    for (lane, system) in systems.into_iter().enumerate() {
-        if !steps.is_new.0[lane] {
-            continue;
-        }
-        let mut state = State { q: member(q, lane), p: member(p, lane) };
-        steps.is_sound.0[lane] = is_sound.0[lane];
-        let mut elapsed = 0.0;
-        for substep in &steps.substeps {
-            if !steps.is_sound.0[lane] {
-                break;
-            }
-            let step = system.later(L::Scalar::constant(elapsed), |system| {
-                Flow::<Trapezoidal, N>::step(system, &state, substep.h, None)
-            });
-            match step {
-                Ok(step) => state = step.state,
-                Err(_) => steps.is_sound.0[lane] = false,
-            }
-            elapsed += substep.h.widen();
-        }
-        write_member(&mut steps.q, lane, &state.q);
-        write_member(&mut steps.p, lane, &state.p);
-        if !L::IS_TIMED {
-            write_member(&mut steps.force, lane, &system.configuration_force(&state.q));
-        }
-        steps.clocks.restart(lane);
-        steps.clocks.follow_one(lane);
-        steps.is_new.0[lane] = false;
+    let is_new = runs.is_new;
+    runs.q.replace(true, is_new, q);
+    runs.p.replace(true, is_new, p);
+    runs.is_new = Mask::splat(false);
+    runs.is_sound = (runs.is_sound & !is_new) | (*is_sound & is_new);
+    runs.step_alone(*is_sound & is_new, 0);
+}
+
+/// The first step of one member.
+fn alone<L, M, const N: usize, const S: usize, const W: usize>(
+    runs: &mut LaneRuns<'_, L, M, N, W>,
+    lane: usize,
+) -> Option<Ends<L::Scalar, N>>
+where
+    L: ExplicitInLanes<N> + FlowInLanes<M, N, Kept<W> = Of<L, N, S, W>>,
+{
+    let (system, mut state, mut elapsed) = (runs.systems[lane], runs.values(lane), 0.0);
+    for substep in &runs.kept.substeps {
+        let step = system.later(L::Scalar::constant(elapsed), |system| {
+            Flow::<Trapezoidal, N>::step(system, &state, substep.h, None)
+        });
+        state = step.ok()?.state;
+        elapsed += substep.h.widen();
     }
+    if !L::IS_TIMED {
+        write_member(&mut runs.kept.force, lane, &system.configuration_force(&state.q));
+    }
+    Some(state.into())
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn advance<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
-    steps: &mut Of<L, N, S, W>,
-    systems: [&L; W],
-    mut count: u64,
-) {
-    if count > 0 && steps.is_new.0.contains(&true) {
-        let start = (steps.q, steps.p, steps.is_sound);
-        if steps.is_new.0.contains(&false) {
-            carry::<L, N, S, W>(steps, 1);
+fn advance<L, M, const N: usize, const S: usize, const W: usize>(
+    runs: &mut LaneRuns<'_, L, M, N, W>,
+    steps: u64,
+) where
+    L: ExplicitInLanes<N> + FlowInLanes<M, N, Kept<W> = Of<L, N, S, W>>,
+{
+    let mut taken = 0;
+    if steps > 0 && runs.is_new.0.contains(&true) {
+        let start = (runs.q, runs.p, runs.is_sound);
+        if runs.is_new.0.contains(&false) {
+            carry(runs, 0..1);
         }
-        first_steps::<L, N, S, W>(steps, systems, &start);
-        count -= 1;
+        first_steps(runs, &start);
+        taken = 1;
     }
-    carry::<L, N, S, W>(steps, count);
+    carry(runs, taken..steps);
 }
 
 /// Steps of all members alike.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn carry<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
-    steps: &mut Of<L, N, S, W>,
-    count: u64,
-) {
+fn carry<L, M, const N: usize, const S: usize, const W: usize>(
+    runs: &mut LaneRuns<'_, L, M, N, W>,
+    steps: Range<u64>,
+) where
+    L: ExplicitInLanes<N> + FlowInLanes<M, N, Kept<W> = Of<L, N, S, W>>,
+{
     // Locals, so that they stay in registers.
-    let (fields, substeps) = (&steps.fields, &steps.substeps);
-    let (mut q, mut p, mut force) = (steps.q, steps.p, steps.force);
-    let mut is_sound = steps.is_sound;
-    for _ in 0..count {
+    let (fields, substeps) = (&runs.fields, &runs.kept.substeps);
+    let (mut q, mut p, mut force) = (runs.q.value, runs.p.value, runs.kept.force);
+    let mut is_sound = runs.is_sound;
+    for step in steps {
         let mut elapsed = Members::<f64, W>::splat(0.0);
         if L::IS_TIMED {
-            elapsed = steps.clocks.times(steps.h);
-            steps.clocks.follow(Mask::splat(true));
+            elapsed = runs.clocks.times(step, runs.h);
         }
         for i in 0..S {
             let substep = &substeps[if i < S - i { i } else { S - 1 - i }];
@@ -218,24 +159,24 @@ fn carry<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
                 fields = &end;
                 elapsed = elapsed + substep.h.widen();
             }
-            is_sound = is_sound & substep.take::<L, _>(fields, &mut q, &mut p, &mut force);
+            is_sound = is_sound & substep.take::<L>(fields, &mut q, &mut p, &mut force);
         }
     }
-    (steps.q, steps.p, steps.force, steps.is_sound) = (q, p, force, is_sound);
+    (runs.q.value, runs.p.value, runs.kept.force, runs.is_sound) = (q, p, force, is_sound);
 }
 
 impl<T: Scalar, A, const N: usize, const W: usize> Substep<T, A, N, W> {
     /// Takes the substep, with `fields` at its end. Returns the members for which v solves its equation.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn take<L, F>(
+    fn take<L>(
         &self,
-        fields: &F,
+        fields: &L::Fields<W>,
         q: &mut MemberVector<T, N, W>,
         p: &mut MemberVector<T, N, W>,
         force: &mut MemberVector<T, N, W>,
     ) -> Mask<W>
     where
-        L: ExplicitInLanes<N, Scalar = T, Fields<W> = F>,
+        L: ExplicitInLanes<N, Scalar = T>,
         A: MatricesOfMembers<T, N, W>,
     {
         let half = self.h * T::constant(0.5);
@@ -269,70 +210,37 @@ impl<T: Scalar, A, const N: usize, const W: usize> Substep<T, A, N, W> {
     }
 }
 
-impl<L, const N: usize> InLanes<Trapezoidal, N> for L
-where
-    L: ExplicitInLanes<N>,
-{
-    type Lanes<const W: usize> = Of<L, N, 1, W>;
+/// `impl FlowInLanes<method, N>`: steps of so many substeps, each this share of h.
+macro_rules! by_substeps {
+    ($method:ty: $substeps:tt, $shares:expr $(, const $s:ident)?) => {
+        impl<L: ExplicitInLanes<N>, const N: usize $(, const $s: usize)?> FlowInLanes<$method, N> for L {
+            type Kept<const W: usize> = Of<L, N, $substeps, W>;
 
-    fn in_lanes<const W: usize>(
-        systems: [&Self; W],
-        starts: &[State<L::Scalar, N>; W],
-        h: L::Scalar,
-    ) -> Self::Lanes<W> {
-        started(systems, starts, h, &[1.0])
-    }
+            fn kept<const W: usize>(h: L::Scalar) -> Self::Kept<W> {
+                kept(h, &$shares)
+            }
 
-    fn refill_lanes<const W: usize>(
-        lanes: &mut Self::Lanes<W>,
-        systems: [&Self; W],
-        starts: &[Option<State<L::Scalar, N>>; W],
-        h: L::Scalar,
-    ) {
-        refill::<L, N, 1, W>(lanes, systems, starts, h);
-    }
+            fn put<const W: usize>(runs: &mut LaneRuns<'_, L, $method, N, W>, lane: usize) -> bool {
+                put(runs, lane)
+            }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn advance_in_lanes<const W: usize>(lanes: &mut Self::Lanes<W>, systems: [&Self; W], steps: u64) {
-        advance::<L, N, 1, W>(lanes, systems, steps);
-    }
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn advance_in_lanes<const W: usize>(
+                runs: &mut LaneRuns<'_, L, $method, N, W>,
+                steps: u64,
+            ) {
+                advance(runs, steps);
+            }
 
-    #[inline]
-    fn state_of_lane<const W: usize>(lanes: &Self::Lanes<W>, lane: usize) -> Option<State<L::Scalar, N>> {
-        state_if_sound(&lanes.q, &lanes.p, lanes.is_sound, lane)
-    }
+            fn alone<const W: usize>(
+                runs: &mut LaneRuns<'_, L, $method, N, W>,
+                lane: usize,
+                _elapsed: L::Scalar,
+            ) -> Option<Ends<L::Scalar, N>> {
+                alone(runs, lane)
+            }
+        }
+    };
 }
-
-impl<L, const N: usize, const S: usize> InLanes<Composition<Trapezoidal, S>, N> for L
-where
-    L: ExplicitInLanes<N>,
-{
-    type Lanes<const W: usize> = Of<L, N, S, W>;
-
-    fn in_lanes<const W: usize>(
-        systems: [&Self; W],
-        starts: &[State<L::Scalar, N>; W],
-        h: L::Scalar,
-    ) -> Self::Lanes<W> {
-        started(systems, starts, h, &Composition::<Trapezoidal, S>::SHARES)
-    }
-
-    fn refill_lanes<const W: usize>(
-        lanes: &mut Self::Lanes<W>,
-        systems: [&Self; W],
-        starts: &[Option<State<L::Scalar, N>>; W],
-        h: L::Scalar,
-    ) {
-        refill::<L, N, S, W>(lanes, systems, starts, h);
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn advance_in_lanes<const W: usize>(lanes: &mut Self::Lanes<W>, systems: [&Self; W], steps: u64) {
-        advance::<L, N, S, W>(lanes, systems, steps);
-    }
-
-    #[inline]
-    fn state_of_lane<const W: usize>(lanes: &Self::Lanes<W>, lane: usize) -> Option<State<L::Scalar, N>> {
-        state_if_sound(&lanes.q, &lanes.p, lanes.is_sound, lane)
-    }
-}
+by_substeps!(Trapezoidal: 1, [1.0]);
+by_substeps!(Composition<Trapezoidal, S>: S, Composition::<Trapezoidal, S>::SHARES, const S);

@@ -7,34 +7,18 @@ use nalgebra::SMatrix;
 use super::underway::UnderwayInLanes;
 use super::{Drifts, Prepared, Splitting};
 use crate::numbers::members::{difference, each_coordinate, write_member};
-use crate::numbers::{Compensated, CompensatedMembers, Mask, MemberVector, Members, Scalar};
+use crate::numbers::{CompensatedMembers, Mask, MemberVector, Members, Scalar};
 use crate::rules::Drift;
-use crate::run::lanes::{begins, state_if_sound};
-use crate::run::{ExplicitInLanes, InLanes};
-use crate::step::State;
-use crate::step::in_lanes::clocks::Clocks;
+use crate::run::ExplicitInLanes;
+use crate::step::{FlowInLanes, LaneRuns};
 use crate::system::{Damping, NewtonStructure, Structure};
 
-/// W members on their way by a [`Splitting`].
+/// Values kept of W members on their way by a [`Splitting`].
 #[derive(Clone, Copy, Debug)]
-pub struct KicksInLanes<T, F, const N: usize, const S: usize, const COMPENSATED: bool, const W: usize> {
+pub struct KicksInLanes<T, const N: usize, const S: usize, const W: usize> {
     drifts: DriftsInLanes<T, N, S, W>,
-    kicked: Kicked<T, F, N, S, W>,
-}
-
-/// The members, and what they have besides their drifts.
-#[derive(Clone, Copy, Debug)]
-struct Kicked<T, F, const N: usize, const S: usize, const W: usize> {
-    /// Members with a run that could begin.
-    has_begun: Mask<W>,
-    fields: F,
-    q: CompensatedMembers<T, N, W>,
-    p: CompensatedMembers<T, N, W>,
     /// G − ∂R/∂v(0) at q, where kicks come first.
     force: MemberVector<T, N, W>,
-    h: T,
-    /// Kept where the force takes the time.
-    clocks: Clocks<W>,
     /// bᵢh.
     kicks: [T; S],
     /// ∂L/∂v at v = 0.
@@ -131,63 +115,63 @@ impl<T: Scalar, const N: usize, const S: usize, const W: usize> FullDrifts<T, N,
     }
 }
 
-impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> Kicked<T, F, N, S, W> {
-    /// As many steps, with the force −∇V(q) + f(q) of all members.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn carry<L, D, const COMPENSATED: bool>(&mut self, steps: u64, drifts: D)
-    where
-        L: ExplicitInLanes<N, Scalar = T, Fields<W> = F>,
-        D: Drifting<T, N, W>,
-    {
-        // Locals, so that they stay in registers.
-        let (fields, shift, thrust) = (&self.fields, &self.shift, &self.thrust);
-        let (mut q, mut p, mut force) = (self.q, self.p, self.force);
-        let mut sum = [Members::splat(T::zero()); N];
-        for _ in 0..steps {
-            let present;
-            let mut now = fields;
-            if L::IS_TIMED {
-                present = L::later_in_lanes(fields, &self.clocks.elapsed(self.h));
-                now = &present;
-                self.clocks.follow(Mask::splat(true));
-            }
-            let mut at = UnderwayInLanes::<T, N, COMPENSATED, W>::new(&mut q, &mut p, shift);
-            if Splitting::<S>::DRIFTS_FIRST {
-                drifts.drift(0, &mut at);
-                for i in 0..S {
-                    force = difference(
-                        &force_after::<L, N, S, W>(now, i, self.h, at.configuration(&mut sum)),
-                        thrust,
-                    );
-                    for a in 0..N {
-                        at.kick(a, force[a] * self.kicks[i]);
-                    }
-                    drifts.drift(if i < S - 1 - i { i + 1 } else { S - 1 - i }, &mut at);
-                }
-                at.end();
-                continue;
-            }
-            if L::IS_TIMED {
-                force = difference(&L::configuration_force_in_lanes(now, at.configuration(&mut sum)), thrust);
-            }
-            each_coordinate!(a => {
-                at.kick(a, force[a] * self.kicks[0]);
-            });
+/// q, p and the force of all members.
+type Carried<T, const N: usize, const W: usize> =
+    (CompensatedMembers<T, N, W>, CompensatedMembers<T, N, W>, MemberVector<T, N, W>);
+
+/// As many steps, with the force −∇V(q) + f(q) of all members.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn carry<L, D, const N: usize, const S: usize, const COMPENSATED: bool, const W: usize>(
+    runs: &LaneRuns<'_, L, Splitting<S, COMPENSATED>, N, W>,
+    steps: u64,
+    drifts: D,
+) -> Carried<L::Scalar, N, W>
+where
+    L: ExplicitInLanes<N>,
+    D: Drifting<L::Scalar, N, W>,
+{
+    // Locals, so that they stay in registers.
+    let (fields, h) = (&runs.fields, runs.h);
+    let KicksInLanes { kicks, shift, thrust, .. } = &runs.kept;
+    let (mut q, mut p, mut force) = (runs.q, runs.p, runs.kept.force);
+    let mut sum = [Members::splat(nalgebra::zero()); N];
+    for step in 0..steps {
+        let present;
+        let mut now = fields;
+        if L::IS_TIMED {
+            present = L::later_in_lanes(fields, &runs.clocks.elapsed(step, h));
+            now = &present;
+        }
+        let mut at = UnderwayInLanes::<L::Scalar, N, COMPENSATED, W>::new(&mut q, &mut p, shift);
+        if Splitting::<S>::DRIFTS_FIRST {
+            drifts.drift(0, &mut at);
             for i in 0..S {
-                drifts.drift(if i < S - i { i } else { S - 1 - i }, &mut at);
-                force = difference(
-                    &force_after::<L, N, S, W>(now, i, self.h, at.configuration(&mut sum)),
-                    thrust,
-                );
-                let kick = self.kicks[if i + 1 < S { i + 1 } else { 0 }];
-                each_coordinate!(a => {
-                    at.kick(a, force[a] * kick);
-                });
+                force = difference(&force_after::<L, N, S, W>(now, i, h, at.configuration(&mut sum)), thrust);
+                for a in 0..N {
+                    at.kick(a, force[a] * kicks[i]);
+                }
+                drifts.drift(if i < S - 1 - i { i + 1 } else { S - 1 - i }, &mut at);
             }
             at.end();
+            continue;
         }
-        (self.q, self.p, self.force) = (q, p, force);
+        if L::IS_TIMED {
+            force = difference(&L::configuration_force_in_lanes(now, at.configuration(&mut sum)), thrust);
+        }
+        each_coordinate!(a => {
+            at.kick(a, force[a] * kicks[0]);
+        });
+        for i in 0..S {
+            drifts.drift(if i < S - i { i } else { S - 1 - i }, &mut at);
+            force = difference(&force_after::<L, N, S, W>(now, i, h, at.configuration(&mut sum)), thrust);
+            let kick = kicks[if i + 1 < S { i + 1 } else { 0 }];
+            each_coordinate!(a => {
+                at.kick(a, force[a] * kick);
+            });
+        }
+        at.end();
     }
+    (q, p, force)
 }
 
 /// G(q) of each after the i-th drift of the step, from the time that `fields` has.
@@ -206,31 +190,6 @@ fn force_after<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: u
         now = &in_time;
     }
     L::configuration_force_in_lanes(now, q)
-}
-
-impl<T: Scalar, F: Copy, const N: usize, const S: usize, const COMPENSATED: bool, const W: usize>
-    KicksInLanes<T, F, N, S, COMPENSATED, W>
-{
-    /// Puts a member into a lane, at its start.
-    fn put<L>(&mut self, lane: usize, system: &L, start: &State<T, N>, h: T)
-    where
-        L: ExplicitInLanes<N, Scalar = T, Fields<W> = F>,
-    {
-        let prepared = if begins(lane, system, start, h) { Prepared::new(system, h).ok() } else { None };
-        let of = &mut self.kicked;
-        of.has_begun.0[lane] = prepared.is_some();
-        of.clocks.restart(lane);
-        let Some(prepared) = prepared else { return };
-        self.drifts.write(lane, &prepared);
-        of.q.write(lane, &Compensated::new(start.q));
-        of.p.write(lane, &Compensated::new(start.p));
-        write_member(&mut of.shift, lane, &prepared.shift);
-        write_member(&mut of.thrust, lane, &prepared.thrust);
-        if !Splitting::<S>::DRIFTS_FIRST && !L::IS_TIMED {
-            let force = system.configuration_force(&start.q) - prepared.thrust;
-            write_member(&mut of.force, lane, &force);
-        }
-    }
 }
 
 impl<T: Scalar, const N: usize, const S: usize, const W: usize> DriftsInLanes<T, N, S, W> {
@@ -317,73 +276,57 @@ const fn may_be_full<const N: usize>(structure: &Structure) -> bool {
     N > 1 && !matches!(of_both, Some(NewtonStructure { bandwidth: 0, .. }))
 }
 
-impl<L, const N: usize, const S: usize, const COMPENSATED: bool> InLanes<Splitting<S, COMPENSATED>, N> for L
+impl<L, const N: usize, const S: usize, const COMPENSATED: bool> FlowInLanes<Splitting<S, COMPENSATED>, N>
+    for L
 where
     L: ExplicitInLanes<N>,
 {
-    type Lanes<const W: usize> = KicksInLanes<L::Scalar, L::Fields<W>, N, S, COMPENSATED, W>;
+    type Kept<const W: usize> = KicksInLanes<L::Scalar, N, S, W>;
 
-    fn in_lanes<const W: usize>(
-        systems: [&Self; W],
-        starts: &[State<L::Scalar, N>; W],
-        h: L::Scalar,
-    ) -> Self::Lanes<W> {
-        let zero = [Members::splat(L::Scalar::constant(0.0)); N];
-        let mut lanes = KicksInLanes {
+    fn kept<const W: usize>(h: L::Scalar) -> Self::Kept<W> {
+        let zero = [Members::splat(nalgebra::zero()); N];
+        KicksInLanes {
             drifts: DriftsInLanes::Undamped([Drift { displacement: zero, loss: zero }; S]),
-            kicked: Kicked {
-                has_begun: Mask::splat(false),
-                fields: L::fields(systems),
-                q: CompensatedMembers::zero(),
-                p: CompensatedMembers::zero(),
-                force: zero,
-                h,
-                clocks: Clocks::new(),
-                kicks: Splitting::<S>::KICKS.map(|share| L::Scalar::constant(share) * h),
-                shift: zero,
-                thrust: zero,
-            },
-        };
-        for (lane, (system, start)) in systems.into_iter().zip(starts).enumerate() {
-            lanes.put(lane, system, start, h);
+            force: zero,
+            kicks: Splitting::<S>::KICKS.map(|share| L::Scalar::constant(share) * h),
+            shift: zero,
+            thrust: zero,
         }
-        lanes
     }
 
-    fn refill_lanes<const W: usize>(
-        lanes: &mut Self::Lanes<W>,
-        systems: [&Self; W],
-        starts: &[Option<State<L::Scalar, N>>; W],
-        h: L::Scalar,
-    ) {
-        lanes.kicked.fields = L::fields(systems);
-        for (lane, (system, start)) in systems.into_iter().zip(starts).enumerate() {
-            if let Some(start) = start {
-                lanes.put(lane, system, start, h);
-            }
+    fn put<const W: usize>(runs: &mut LaneRuns<'_, L, Splitting<S, COMPENSATED>, N, W>, lane: usize) -> bool {
+        let system = runs.systems[lane];
+        let Ok(prepared) = Prepared::new(system, runs.h) else { return false };
+        let q = runs.values(lane).q;
+        let kept = &mut runs.kept;
+        kept.drifts.write(lane, &prepared);
+        write_member(&mut kept.shift, lane, &prepared.shift);
+        write_member(&mut kept.thrust, lane, &prepared.thrust);
+        if !Splitting::<S>::DRIFTS_FIRST && !L::IS_TIMED {
+            write_member(&mut kept.force, lane, &(system.configuration_force(&q) - prepared.thrust));
         }
+        true
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn advance_in_lanes<const W: usize>(lanes: &mut Self::Lanes<W>, _systems: [&Self; W], steps: u64) {
-        let KicksInLanes { drifts, kicked } = lanes;
-        match drifts {
-            DriftsInLanes::Undamped(drifts) => kicked.carry::<L, _, COMPENSATED>(steps, Undamped(drifts)),
+    fn advance_in_lanes<const W: usize>(
+        runs: &mut LaneRuns<'_, L, Splitting<S, COMPENSATED>, N, W>,
+        steps: u64,
+    ) {
+        (runs.q, runs.p, runs.kept.force) = match &runs.kept.drifts {
+            DriftsInLanes::Undamped(drifts) => carry(runs, steps, Undamped(drifts)),
             DriftsInLanes::Diagonal(drifts) if const { may_be_damped(&L::STRUCTURE) } => {
-                kicked.carry::<L, _, COMPENSATED>(steps, Diagonal(drifts))
+                carry(runs, steps, Diagonal(drifts))
             }
             DriftsInLanes::Full(drifts) if const { may_be_full::<N>(&L::STRUCTURE) } => {
-                kicked.carry::<L, _, COMPENSATED>(steps, &*drifts)
+                carry(runs, steps, drifts)
             }
             // Of no system with this structure: if it is wrong, each member is left to a run of its own.
-            DriftsInLanes::Diagonal(_) | DriftsInLanes::Full(_) => kicked.has_begun = Mask::splat(false),
-        }
-    }
-
-    #[inline]
-    fn state_of_lane<const W: usize>(lanes: &Self::Lanes<W>, lane: usize) -> Option<State<L::Scalar, N>> {
-        let of = &lanes.kicked;
-        state_if_sound(&of.q.value, &of.p.value, of.has_begun, lane)
+            DriftsInLanes::Diagonal(_) | DriftsInLanes::Full(_) => {
+                runs.is_sound = Mask::splat(false);
+                return;
+            }
+        };
     }
 }
 

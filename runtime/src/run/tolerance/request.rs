@@ -179,8 +179,8 @@ impl<'a, L, M> TimedRequest<'a, L, M> {
     /// another one starts from the beginning. Its method and step size are chosen where the last one erred
     /// most as well as at the start, for an error that is smaller by as much as errors have grown on the way;
     /// where no method is expected to reach that, the last one takes shorter steps. What is kept is the error
-    /// asked for. Most motions need one run or two; eight are tried. The page `docs/error-asked-for.md`
-    /// counts how often none of them keeps it: at kinks, as a rule.
+    /// asked for. Most motions need one run or two; eight are tried. The page
+    /// `docs/evidence/error-asked-for.md` counts how often none of them keeps it: at kinks, as a rule.
     ///
     /// ```
     /// use dalembert::{Discretise, State, rayleigh_system};

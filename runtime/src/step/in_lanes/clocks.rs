@@ -1,8 +1,8 @@
 //! The clocks of several members: each stands as many steps after its start as it has taken.
 
-use crate::numbers::{Mask, Members, Scalar};
+use crate::numbers::{Members, Scalar};
 
-/// How many steps each of W members has taken.
+/// How many steps each of W members has taken when a call begins; all take those of the call together.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Clocks<const W: usize> {
     taken: [u64; W],
@@ -26,40 +26,23 @@ impl<const W: usize> Clocks<W> {
         self.taken[lane] = 0;
     }
 
-    /// Counts a step of the members of `whose`.
+    /// Counts the steps of a call.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn follow(&mut self, whose: Mask<W>) {
-        for lane in 0..W {
-            self.taken[lane] += u64::from(whose.0[lane]);
+    pub(crate) fn count(&mut self, steps: u64) {
+        for taken in &mut self.taken {
+            *taken = taken.saturating_add(steps);
         }
     }
 
-    /// Counts a step of one member.
-    pub(crate) fn follow_one(&mut self, lane: usize) {
-        self.taken[lane] += 1;
-    }
-
-    /// The time of each since its start.
+    /// The time of each member since its start, so many steps into the call.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn times<T: Scalar>(&self, h: T) -> Members<f64, W> {
-        Members(self.taken.map(|taken| time(taken, h)))
+    pub(crate) fn times<T: Scalar>(&self, steps: u64, h: T) -> Members<f64, W> {
+        Members(self.taken.map(|taken| time(taken.wrapping_add(steps), h)))
     }
 
     /// [`times`](Self::times) in the numbers of the system.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn elapsed<T: Scalar>(&self, h: T) -> Members<T, W> {
-        Members(self.times(h).0.map(T::constant))
-    }
-
-    /// The time of one member since its start.
-    #[inline]
-    pub(crate) fn elapsed_of<T: Scalar>(&self, lane: usize, h: T) -> T {
-        T::constant(time(self.taken[lane], h))
-    }
-
-    /// [`elapsed_of`](Self::elapsed_of) at the start of the member's last step.
-    #[inline]
-    pub(crate) fn elapsed_before<T: Scalar>(&self, lane: usize, h: T) -> T {
-        T::constant(time(self.taken[lane].saturating_sub(1), h))
+    pub(crate) fn elapsed<T: Scalar>(&self, steps: u64, h: T) -> Members<T, W> {
+        Members(self.times(steps, h).0.map(T::constant))
     }
 }

@@ -28,7 +28,7 @@ pub(crate) fn bounded<S: Scalar, const N: usize>(
     for iteration in 0..bound.max(1) {
         let kernel = equation.kernel(&at(&v));
         let residual = kernel.p0 - p;
-        let correction = match kernel.matrix.solve(&residual) {
+        let correction = match equation.correction(&kernel.matrix, &residual) {
             Ok(correction) => correction,
             // What was reached before stands.
             Err(_) if best.is_some() => break,

@@ -1,4 +1,4 @@
-//! The section of `docs/random-programs.md` on programs as people write them.
+//! The section of `docs/evidence/random-programs.md` on programs as people write them.
 
 use std::fmt::Write as _;
 

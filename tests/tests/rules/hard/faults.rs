@@ -41,6 +41,7 @@ impl ActingForce<1> for Panicking {}
 impl Fused<Midpoint, 1> for Panicking {
     type Matrix = dalembert::nalgebra::SMatrix<f64, 1, 1>;
     type Memory = dalembert::run::VelocityHistory<f64, 1>;
+    type Border = dalembert::step::Free;
 
     fn step_kernel(&self, segment: &Segment<f64, 1>) -> StepKernel<f64, 1> {
         Midpoint::lagrangian_kernel(self, segment)

@@ -96,6 +96,7 @@ impl ActingForce<2> for Mistaken {}
 impl Fused<ByHand, 2> for Mistaken {
     type Matrix = SMatrix<f64, 2, 2>;
     type Memory = VelocityHistory<f64, 2>;
+    type Border = dalembert::step::Free;
     fn step_kernel(&self, segment: &Segment<f64, 2>) -> StepKernel<f64, 2> {
         Fused::<Midpoint, 2>::step_kernel(&self.0, segment)
     }

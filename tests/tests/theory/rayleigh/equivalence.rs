@@ -72,6 +72,7 @@ impl ActingForce<2> for Regauged {}
 impl Fused<ByHand, 2> for Regauged {
     type Matrix = SMatrix<f64, 2, 2>;
     type Memory = VelocityHistory<f64, 2>;
+    type Border = dalembert::step::Free;
     fn step_kernel(&self, segment: &Segment<f64, 2>) -> StepKernel<f64, 2> {
         let kernel = Fused::<Midpoint, 2>::step_kernel(&self.system, segment);
         StepKernel { p0: kernel.p0 - psi(&segment.q0).1 * 2.0, ..kernel }

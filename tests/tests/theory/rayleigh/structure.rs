@@ -129,6 +129,7 @@ impl<G> ActingForce<2> for AtStart<G> {}
 impl<G: Covector> Fused<ByHand, 2> for AtStart<G> {
     type Matrix = SMatrix<f64, 2, 2>;
     type Memory = VelocityHistory<f64, 2>;
+    type Border = dalembert::step::Free;
     fn step_kernel(&self, segment: &Segment<f64, 2>) -> StepKernel<f64, 2> {
         StepKernel { p0: segment.v - self.0.at(&segment.q0).value, matrix: SMatrix::identity() }
     }

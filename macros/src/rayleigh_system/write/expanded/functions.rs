@@ -1,4 +1,4 @@
-//! Functions at (q, v): derivatives of L, R, f and σ.
+//! Functions at (q, v): derivatives of L, R, f, σ and constraints.
 
 use super::matrices::matrix;
 use super::*;
@@ -15,11 +15,12 @@ impl Text<'_> {
         use Shape::{Matrix, Scalar, Vector};
         let line = self.line_at_present(function);
         let (outputs, statements) = (&line.outputs, &line.statements);
-        let (scalar, n, m, p) = (
+        let (scalar, n, m, p, constraints) = (
             &self.system.scalar,
             self.system.degrees.times(1),
             self.system.inputs(),
             self.system.parameter_count(),
+            self.system.constraint_count(),
         );
         let inline = Some(quote!(#[inline]));
         let (attributes, name, ty, result) = match function.of {
@@ -53,6 +54,18 @@ impl Text<'_> {
                 let [value, gradient] = self.parts(outputs, [Scalar, Vector]);
                 let ty = quote!((#scalar, Vector));
                 (None, "time_scale_gradient".to_owned(), ty, quote!((#value, #gradient)))
+            }
+            Of::ConstraintGradients => {
+                let count = outputs.len() / (self.derived.n + 1);
+                let (values, gradients) = outputs.split_at(count);
+                let gradients = matrix(gradients, count);
+                let ty = quote!((SVector<#scalar, #constraints>, SMatrix<#scalar, #constraints, #n>));
+                let result = quote!((SVector::from([#(#values),*]), #gradients));
+                (inlined(statements), "constraint_gradients".to_owned(), ty, result)
+            }
+            Of::ConstraintCurvature => {
+                let ty = quote!(SMatrix<#scalar, #n, #n>);
+                (None, "constraint_curvature".to_owned(), ty, matrix(outputs, self.derived.n))
             }
             Of::ForceByInput => {
                 let ty = quote!(SMatrix<#scalar, #n, #m>);
@@ -91,12 +104,15 @@ impl Text<'_> {
             _ => return TokenStream::new(),
         };
         let (name, q) = (format_ident!("{name}"), parameter("q", line.uses_coordinates));
-        let v = (function.of != Of::TimeScaleGradient).then(|| {
+        let of_configuration =
+            matches!(function.of, Of::TimeScaleGradient | Of::ConstraintGradients | Of::ConstraintCurvature);
+        let v = (!of_configuration).then(|| {
             let v = parameter("v", line.uses_velocities);
             quote!(, #v: &Vector)
         });
         let further: (&[&str], _) = match function.of {
             Of::Variations => (&["minus", "plus"], quote!(Direction<#scalar>)),
+            Of::ConstraintCurvature => (&["lambda"], quote!(&SVector<#scalar, #constraints>)),
             Of::Along(Part::Force) => (&["vector"], quote!(&Vector)),
             Of::Along(_) => (&["a", "b"], quote!(&Vector)),
             _ => (&[], quote!()),

@@ -13,6 +13,7 @@ use quote::ToTokens;
 use super::super::super::emit::{Field, number_of_members};
 use super::super::super::syntax::with_words;
 use super::*;
+use stages::StageLines;
 
 /// Numbers and truth values of members, in one value that functions hand on:
 /// `([Members<f64, W>; 3], [Mask<W>; 1])`.
@@ -25,8 +26,9 @@ struct OfMembers<'t> {
 }
 
 impl<'t> OfMembers<'t> {
-    fn new(text: &'t Text<'t>, fields: impl IntoIterator<Item = (Node, bool)>) -> Self {
-        let mut all: Vec<(Node, bool)> = fields.into_iter().collect();
+    fn new<'f>(text: &'t Text<'t>, fields: impl IntoIterator<Item = &'f Field>) -> Self {
+        let fields = fields.into_iter().map(|field| (field.node, field.is_truth));
+        let mut all: Vec<(Node, bool)> = fields.collect();
         all.sort_unstable();
         all.dedup();
         let of =
@@ -37,12 +39,6 @@ impl<'t> OfMembers<'t> {
             numbers: of(false).collect(),
             truths: of(true).collect(),
         }
-    }
-
-    /// The fields of several lines: all that they have from before they run.
-    fn fields_of<'l>(text: &'t Text<'t>, lines: impl IntoIterator<Item = &'l StraightLine>) -> Self {
-        let fields = lines.into_iter().flat_map(|line| &line.fields);
-        Self::new(text, fields.map(|field| (field.node, field.is_truth)))
     }
 
     fn is_empty(&self) -> bool {
@@ -107,11 +103,36 @@ impl<'t> OfMembers<'t> {
 }
 
 impl Text<'_> {
+    /// The functions of several members at once, as far as they are asked for; the fields that any of them
+    /// reads are gathered once.
+    pub(super) fn lane_functions(&self) -> Option<LaneFunctions> {
+        let kernels = || self.derived.kernels.iter().flatten();
+        let lines = |functions: &[Routine; 2]| functions.each_ref().map(|function| self.line(function));
+        let explicit = kernels().find_map(|kernel| kernel.explicit.as_ref()?.in_lanes.as_ref()).map(lines);
+        let midpoint =
+            kernels().find_map(|kernel| Some((lines(kernel.in_lanes.as_ref()?), kernel.diagonals)));
+        let stages = match &self.derived.stages {
+            Some(Ok(stages)) => stages.in_lanes.as_ref(),
+            _ => None,
+        };
+        let stages = stages.map(|functions| StageLines::new(lines(functions), self.handed_over(functions)));
+        let of_kernels = explicit.iter().chain(midpoint.iter().map(|(lines, _)| lines)).flatten();
+        let of_kernels = of_kernels.flat_map(|line| &line.fields);
+        let fields = OfMembers::new(self, of_kernels.chain(stages.iter().flat_map(StageLines::fields)));
+        let is_any = explicit.is_some() || midpoint.is_some() || stages.is_some();
+        is_any.then(|| LaneFunctions {
+            gathered: self.gathered(&fields),
+            explicit: explicit.map(|lines| self.explicit_in_lanes(&lines, &fields)),
+            midpoint: midpoint.map(|(lines, diagonals)| self.midpoint_in_lanes(&lines, &fields, diagonals)),
+            stages: stages.map(|lines| self.stages_in_lanes(&lines, &fields)),
+        })
+    }
+
     /// `type Fields` and the function that fills it; where there is a time, with the present one beside what
     /// is known, and the function that moves it.
     fn gathered(&self, fields: &OfMembers<'_>) -> TokenStream {
         let (ty, members) = (fields.ty(), &fields.members);
-        let (scalar, is_timed) = (&self.system.scalar, self.system.timed.any());
+        let (scalar, is_timed) = (&self.system.scalar, self.system.is_timed());
         let home = self.system.home();
         let of_view = if home == Home::View { OF_VIEW } else { &[] };
         let taken = [&["systems", "system"], of_view].concat();

@@ -29,6 +29,8 @@ impl Text<'_> {
                 Part::Lagrangian => quote!(Lagrangian),
                 Part::Rayleigh => quote!(Rayleigh),
                 Part::Force => quote!(Force { index: #index }),
+                Part::TimeScale => quote!(TimeScale),
+                Part::Constraints => quote!(Constraint { index: #index }),
             };
             let statements = &line.statements;
             arms.push(quote! {

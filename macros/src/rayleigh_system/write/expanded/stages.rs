@@ -55,14 +55,15 @@ impl Text<'_> {
             quote!(#lanes<#scalar, #stages>)
         };
         let vector = quote!(#lane_vector<#scalar, #n, #stages>);
-        let (function, text, elapsed) = if self.system.timed.any() {
+        let (function, text, elapsed) = if self.system.is_timed() {
             let (elapsed, lanes) = (parameter("elapsed", line.uses("t")), lanes());
             let text = " G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages, each at its own time.";
             (format_ident!("stages_in_time"), text, Some(quote!(#elapsed: &#lanes,)))
         } else {
             (format_ident!("stages"), " G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages.", None)
         };
-        let Anchors { ty, parameter: anchors, apart } = Anchors::new(&line, lanes, self.system.is_fused);
+        let Anchors { ty, parameter: anchors, apart } =
+            Anchors::new(&line, lanes, self.system.fused.is_some());
         let inline = inlined_on_lanes(&quote!(#statements #later));
         quote! {
             type Anchors<const #stages: usize> = #ty;

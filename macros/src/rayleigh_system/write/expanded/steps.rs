@@ -5,7 +5,7 @@ use super::*;
 impl Text<'_> {
     /// The kernel of a rule.
     pub(super) fn kernel(&self, kernel: &derived::Kernel) -> Kernel {
-        let derived::Kernel { step_kernel, momenta, diagonals, is_linear, keeps_matrix, explicit, in_lanes } =
+        let derived::Kernel { step_kernel, momenta, diagonals, is_linear, keeps_matrix, explicit, .. } =
             kernel;
         let line = self.line(step_kernel);
         let (p0, matrix) = line.outputs.split_at(self.derived.n);
@@ -17,7 +17,6 @@ impl Text<'_> {
         let [p0, p1] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
         let momenta = self.framed(momenta.of, &line, quote!(Momenta { p0: #p0, p1: #p1 }));
 
-        let explicit_in_lanes = explicit.as_ref().and_then(|explicit| explicit.in_lanes.as_ref());
         Kernel {
             step_kernel,
             momenta,
@@ -29,8 +28,6 @@ impl Text<'_> {
                 () => Memory::Velocities,
             },
             explicit: explicit.as_ref().map(|explicit| self.explicit(explicit, *diagonals)),
-            explicit_in_lanes: explicit_in_lanes.map(|functions| self.explicit_in_lanes(functions)),
-            in_lanes: in_lanes.as_ref().map(|functions| self.midpoint_in_lanes(functions, *diagonals)),
         }
     }
 

@@ -6,12 +6,24 @@ use crate::numbers::{Mask, MemberVector, Members, Scalar};
 use crate::rules::gauss::fixed_point::{AT_REST, CHANGED, NEAR, SLUGGISH};
 use crate::step::newton::AT_FLOOR;
 
-/// The round-off floor of each coordinate's residual, and residuals of the last two sweeps in units of it.
+/// The round-off floor of each coordinate's residual, and residuals of a sweep and the two before in units of
+/// it.
 pub(super) struct Floors<T, const N: usize, const W: usize> {
     floor: MemberVector<T, N, W>,
     per_floor: MemberVector<T, N, W>,
     before: Members<T, W>,
     last: Members<T, W>,
+    size: Members<T, W>,
+}
+
+/// How sweeps stand, of the members that were open.
+pub(super) struct Verdict<const W: usize> {
+    /// Members that are solved.
+    pub(super) is_solved: Mask<W>,
+    /// Members that apply the last correction too, where they are solved.
+    pub(super) is_at_rest: Mask<W>,
+    /// Members that are solved or may yet be; the others take the step alone.
+    pub(super) is_open: Mask<W>,
 }
 
 /// The terms that the floor of a step is made of.
@@ -49,97 +61,128 @@ impl<T: Scalar, const N: usize, const W: usize> Floors<T, N, W> {
     pub(super) fn new() -> Self {
         let zero = [Members::splat(T::zero()); N];
         let one = Members::splat(T::one());
-        Self { floor: zero, per_floor: zero, before: one, last: one }
+        Self { floor: zero, per_floor: zero, before: one, last: one, size: one }
     }
 
-    /// Which members of `whose` are solved after sweep `iterations`, and where these apply the last
-    /// correction too. Clears `is_open` for members of `whose` that have to take the step alone.
+    /// Judges members of `open` after sweep `iterations`.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn solved<const S: usize>(
+    pub(super) fn judge<const S: usize>(
         &mut self,
         iterations: u32,
-        (is_open, whose): (&mut Mask<W>, Mask<W>),
+        open: Mask<W>,
         seen: &Seen<T, N, W>,
         terms: &Terms<'_, T, N, S, W>,
         mass_is_constant: bool,
-    ) -> [Mask<W>; 2] {
-        let constant = T::constant;
+    ) -> Verdict<W> {
         let largest = &seen.residual;
         if iterations == 1 {
             self.floor = terms.floor(largest);
             self.per_floor = reciprocals(&self.floor);
         }
-        let mut size = in_units(largest, &self.per_floor);
+        self.size = in_units(largest, &self.per_floor);
+        let mut is_open = open;
         if iterations == 1 {
-            self.last = size;
+            self.last = self.size;
         } else {
-            let grows = *is_open & whose & !size.less(self.last);
+            let grows = open & !self.size.less(self.last);
             if grows.0.contains(&true) {
-                let now = terms.floor(largest);
-                let mut has_risen = Mask::splat(false);
-                coordinate_by_coordinate!(a => {
-                    has_risen = has_risen | (self.floor[a] * constant(CHANGED)).less(now[a]);
-                    *is_open = *is_open & (!grows | now[a].is_finite());
-                });
-                let has_risen = grows & has_risen;
-                coordinate_by_coordinate!(a => {
-                    self.floor[a] = Members::select(has_risen, self.floor[a].larger(now[a]), self.floor[a]);
-                });
-                size = self.begin_anew(has_risen, largest);
+                is_open = is_open & self.rise(grows, &terms.floor(largest), largest);
             }
         }
         // As many of these in a sum would still be finite.
-        *is_open = *is_open & (!whose | ((seen.sum + size) * constant(256.0)).is_finite());
+        is_open = is_open & ((seen.sum + self.size) * T::constant(256.0)).is_finite();
 
-        let small = Members::splat(constant(AT_REST));
-        let is_at_rest = (size * size).less_or_equal(small * self.last)
+        let is_at_rest = self.is_at_rest(iterations, mass_is_constant);
+        let has_stopped = if iterations > 1 {
+            (self.last * T::constant(SLUGGISH)).less_or_equal(self.size)
+        } else {
+            Mask::splat(false)
+        };
+        let mut is_solved = is_open & (is_at_rest | (has_stopped & self.is_at_floor()));
+        if iterations > 1 && is_solved.0.contains(&true) {
+            is_solved = self.fall(is_solved, is_at_rest, &terms.floor(largest), largest);
+        }
+        if iterations > 2 {
+            // Rounding has to be measured, or Newton's method takes over.
+            is_open = is_open & (is_solved | self.size.less(self.before * T::constant(SLUGGISH)));
+        }
+        (self.before, self.last) = (self.last, self.size);
+        Verdict { is_solved, is_at_rest, is_open }
+    }
+
+    /// Members whose last correction leaves nothing.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn is_at_rest(&self, iterations: u32, mass_is_constant: bool) -> Mask<W> {
+        let (size, small) = (self.size, Members::splat(T::constant(AT_REST)));
+        (size * size).less_or_equal(small * self.last)
             & if iterations > 2 {
                 (size * self.last).less_or_equal(small * self.before)
             } else if !mass_is_constant {
                 size.less_or_equal(small)
             } else if N > 1 {
-                size.less_or_equal(Members::splat(constant(NEAR)))
+                size.less_or_equal(Members::splat(T::constant(NEAR)))
             } else {
                 Mask::splat(true)
-            };
-        let mut has_stopped = Mask::splat(false);
-        if iterations > 1 {
-            has_stopped = (self.last * constant(SLUGGISH)).less_or_equal(size);
-        }
-        let at_floor = size.less_or_equal(Members::splat(constant(AT_FLOOR)));
-        let mut is_done = *is_open & whose & (is_at_rest | (has_stopped & at_floor));
-        if iterations > 1 && is_done.0.contains(&true) {
-            let now = terms.floor(largest);
-            let factor =
-                Members::select(is_at_rest, Members::splat(constant(CHANGED)), Members::splat(T::one()));
-            let mut has_fallen = Mask::splat(false);
-            coordinate_by_coordinate!(a => {
-                has_fallen = has_fallen | (now[a] * factor).less(self.floor[a]);
-            });
-            let has_fallen = is_done & has_fallen;
-            coordinate_by_coordinate!(a => {
-                self.floor[a] = Members::select(has_fallen, now[a], self.floor[a]);
-            });
-            size = self.begin_anew(has_fallen, largest);
-            let at_floor = size.less_or_equal(Members::splat(constant(AT_FLOOR)));
-            is_done = is_done & (!has_fallen | (!is_at_rest & at_floor));
-        }
-        if iterations > 2 {
-            // Rounding has to be measured, or Newton's method takes over.
-            *is_open = *is_open & (!whose | is_done | size.less(self.before * constant(SLUGGISH)));
-        }
-        (self.before, self.last) = (self.last, size);
-        [is_done, is_at_rest]
+            }
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn is_at_floor(&self) -> Mask<W> {
+        self.size.less_or_equal(Members::splat(T::constant(AT_FLOOR)))
+    }
+
+    /// Raises the floors of members with residuals that grow to those `now`, where they were much lower.
+    /// Returns the members that may go on; not those that grow and have floors without an end.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn rise(
+        &mut self,
+        grows: Mask<W>,
+        now: &MemberVector<T, N, W>,
+        largest: &MemberVector<T, N, W>,
+    ) -> Mask<W> {
+        let (mut has_risen, mut goes_on) = (Mask::splat(false), Mask::splat(true));
+        coordinate_by_coordinate!(a => {
+            has_risen = has_risen | (self.floor[a] * T::constant(CHANGED)).less(now[a]);
+            goes_on = goes_on & (!grows | now[a].is_finite());
+        });
+        let has_risen = grows & has_risen;
+        coordinate_by_coordinate!(a => {
+            self.floor[a] = Members::select(has_risen, self.floor[a].larger(now[a]), self.floor[a]);
+        });
+        self.begin_anew(has_risen, largest);
+        goes_on
+    }
+
+    /// Lowers the floors of solved members to those `now`. Returns the members that are solved by these too.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn fall(
+        &mut self,
+        is_solved: Mask<W>,
+        is_at_rest: Mask<W>,
+        now: &MemberVector<T, N, W>,
+        largest: &MemberVector<T, N, W>,
+    ) -> Mask<W> {
+        let changed = Members::splat(T::constant(CHANGED));
+        let factor = Members::select(is_at_rest, changed, Members::splat(T::one()));
+        let mut has_fallen = Mask::splat(false);
+        coordinate_by_coordinate!(a => {
+            has_fallen = has_fallen | (now[a] * factor).less(self.floor[a]);
+        });
+        let has_fallen = is_solved & has_fallen;
+        coordinate_by_coordinate!(a => {
+            self.floor[a] = Members::select(has_fallen, now[a], self.floor[a]);
+        });
+        self.begin_anew(has_fallen, largest);
+        is_solved & (!has_fallen | (!is_at_rest & self.is_at_floor()))
     }
 
     /// Measures residuals by the floors as they are now; restarts the sizes before for members of `whose`.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn begin_anew(&mut self, whose: Mask<W>, largest: &MemberVector<T, N, W>) -> Members<T, W> {
+    fn begin_anew(&mut self, whose: Mask<W>, largest: &MemberVector<T, N, W>) {
         self.per_floor = reciprocals(&self.floor);
-        let size = in_units(largest, &self.per_floor);
-        self.before = Members::select(whose, size * T::constant(4.0), self.before);
-        self.last = Members::select(whose, size, self.last);
-        size
+        self.size = in_units(largest, &self.per_floor);
+        self.before = Members::select(whose, self.size * T::constant(4.0), self.before);
+        self.last = Members::select(whose, self.size, self.last);
     }
 }
 

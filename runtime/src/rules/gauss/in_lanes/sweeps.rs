@@ -1,12 +1,14 @@
 //! The sweeps over the stages of several members.
 
-use super::StagesInLanes;
 use super::allowances::Allowances;
-use super::floors::{Floors, Terms};
+use super::floors::{Floors, Terms, Verdict};
 use super::seen::Seen;
 use crate::numbers::members::{coordinate_by_coordinate, each_stage, stage_by_stage};
 use crate::numbers::{Blank, CompensatedMembers, Mask, MemberVector, Members, Scalar};
+use crate::rules::gauss::Gauss;
+use crate::rules::gauss::coefficients::Coefficients;
 use crate::rules::gauss::fixed_point::MAX_ITERATIONS;
+use crate::step::LaneRuns;
 use crate::system::{ForcedLagrangianInLanes, Lagrangian};
 
 /// The arrays that the sweeps of each step write before they read them: made once for many steps.
@@ -52,16 +54,20 @@ pub(super) struct Solved<T, const N: usize, const S: usize, const W: usize> {
     pub(super) rate: [MemberVector<T, N, W>; S],
 }
 
-impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesInLanes<T, F, N, S, W> {
+impl<L: ForcedLagrangianInLanes<N>, const N: usize, const S: usize, const W: usize>
+    LaneRuns<'_, L, Gauss<S>, N, W>
+{
+    const COEFFICIENTS: &'static Coefficients<S> = &Gauss::<S>::COEFFICIENTS;
+
     /// The velocities of the last step, one step on; of members that have not stepped, those to start from.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn extrapolate(&self, is_fused: bool, extrapolated: &mut [MemberVector<T, N, W>; S]) {
+    fn extrapolate(&self, is_fused: bool, extrapolated: &mut [MemberVector<L::Scalar, N, W>; S]) {
         let columns = &Self::COEFFICIENTS.extrapolation;
         stage_by_stage!(i => {
             coordinate_by_coordinate!(a => {
-                let mut sums = [Members::splat(T::zero()); 2];
+                let mut sums = [Members::splat(nalgebra::zero()); 2];
                 each_stage!(j => {
-                    sums[j % 2] = self.v[j][a].times_plus(is_fused, T::constant(columns[j][i]), sums[j % 2]);
+                    sums[j % 2] = self.kept.v[j][a].times_plus(is_fused, L::Scalar::constant(columns[j][i]), sums[j % 2]);
                 });
                 extrapolated[i][a] = sums[0] + sums[1];
             });
@@ -69,7 +75,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         if self.is_new.0.contains(&true) {
             stage_by_stage!(i => {
                 coordinate_by_coordinate!(a => {
-                    extrapolated[i][a] = Members::select(self.is_new, self.v[i][a], extrapolated[i][a]);
+                    extrapolated[i][a] = Members::select(self.is_new, self.kept.v[i][a], extrapolated[i][a]);
                 });
             });
         }
@@ -79,38 +85,38 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn at_stage(
         is_fused: bool,
-        start: &CompensatedMembers<T, N, W>,
-        terms: &[MemberVector<T, N, W>; S],
+        start: &CompensatedMembers<L::Scalar, N, W>,
+        terms: &[MemberVector<L::Scalar, N, W>; S],
         i: usize,
-    ) -> MemberVector<T, N, W> {
+    ) -> MemberVector<L::Scalar, N, W> {
         let columns = &Self::COEFFICIENTS.shares;
-        let mut at = [Members::splat(T::zero()); N];
+        let mut at = [Members::splat(nalgebra::zero()); N];
         coordinate_by_coordinate!(a => {
-            let mut sums = [start.rest[a], Members::splat(T::zero())];
+            let mut sums = [start.rest[a], Members::splat(nalgebra::zero())];
             each_stage!(j => {
-                sums[j % 2] = terms[j][a].times_plus(is_fused, T::constant(columns[j][i]), sums[j % 2]);
+                sums[j % 2] = terms[j][a].times_plus(is_fused, L::Scalar::constant(columns[j][i]), sums[j % 2]);
             });
             at[a] = (sums[0] + sums[1]) + start.value[a];
         });
         at
     }
 
-    /// Solves the stages of the members `together`, as far as sweeps of the usual kind do:
+    /// Solves the stages of the members `together`, so many steps into the call, as far as sweeps of the usual
+    /// kind do:
     /// [`iterate`](crate::rules::gauss::fixed_point::iterate) of each.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn solve<L>(
+    pub(super) fn solve(
         &self,
-        steps: &[T; S],
+        step: u64,
+        steps: &[L::Scalar; S],
         together: Mask<W>,
         sweeps: &mut SweepsOf<L, N, S, W>,
-        solved: &mut Solved<T, N, S, W>,
-    ) where
-        L: ForcedLagrangianInLanes<N, Scalar = T, Fields<W> = F>,
-    {
+        solved: &mut Solved<L::Scalar, N, S, W>,
+    ) {
         let is_fused = L::STRUCTURE.fused_multiply_add;
         let mut fields = self.fields;
         if L::IS_TIMED {
-            fields = L::later_in_lanes(&fields, &self.clocks.elapsed(self.h));
+            fields = L::later_in_lanes(&fields, &self.clocks.elapsed(step, self.h));
         }
         let Sweeps { v, next, rate, terms: [of_v, of_rate], kept, anchors } = sweeps;
         let (mut v, mut next) = (v, next);
@@ -123,7 +129,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         });
         solved.is_solved = Mask::splat(false);
         let mut is_open = together;
-        let mut allowances = Allowances::new(self.slack, &self.left, self.h, &self.p.value);
+        let mut allowances = Allowances::new(self.kept.slack, &self.kept.left, self.h, &self.p.value);
         let is_loose = allowances.are_known;
         let some_loose = is_loose.0.contains(&true);
         let some_to_rounding = (together & !is_loose).0.contains(&true);
@@ -135,7 +141,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
                 let in_time;
                 let mut at_stage = &fields;
                 if L::IS_TIMED {
-                    let elapsed = Members::<T, W>::splat(T::constant(Self::COEFFICIENTS.nodes[i]) * self.h);
+                    let elapsed = Members::<L::Scalar, W>::splat(L::Scalar::constant(Self::COEFFICIENTS.nodes[i]) * self.h);
                     in_time = L::later_in_lanes(&fields, &elapsed);
                     at_stage = &in_time;
                 }
@@ -166,10 +172,11 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
             let (mut is_done, mut is_moved) = (Mask::splat(false), is_loose);
             if some_to_rounding {
                 let terms = Terms { h: self.h, p: &self.p.value, rate };
-                let open = (&mut is_open, !is_loose);
                 let mass_is_constant = L::STRUCTURE.constant_mass_matrix;
-                let [done, is_at_rest] = floors.solved(iterations, open, &seen, &terms, mass_is_constant);
-                (is_done, is_moved) = (done, is_moved | is_at_rest);
+                let Verdict { is_solved, is_at_rest, is_open: may_be } =
+                    floors.judge(iterations, is_open & !is_loose, &seen, &terms, mass_is_constant);
+                (is_done, is_moved) = (is_solved, is_moved | is_at_rest);
+                is_open = (is_open & is_loose) | may_be;
             }
             if some_loose {
                 is_done = is_done | allowances.solved(iterations, &mut is_open, &seen);

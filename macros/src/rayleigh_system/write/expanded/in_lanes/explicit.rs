@@ -4,15 +4,13 @@ use super::*;
 
 impl Text<'_> {
     /// The functions of `ExplicitInLanes`.
-    pub(in super::super) fn explicit_in_lanes(&self, functions: &[Routine; 2]) -> TokenStream {
-        let [momenta, force] = functions.each_ref().map(|function| self.line(function));
-        let fields = OfMembers::fields_of(self, [&force, &momenta]);
-        let is_timed = self.system.timed.any();
-        let gathered = self.gathered(&fields);
+    pub(super) fn explicit_in_lanes(&self, lines: &[StraightLine; 2], fields: &OfMembers<'_>) -> TokenStream {
+        let [momenta, force] = lines;
+        let is_timed = self.system.is_timed();
         let (scalar, members) = (&self.system.scalar, &fields.members);
         let vector = fields.vector(&self.system.degrees.times(1));
 
-        let (apart, statements) = (fields.read_by(&momenta, is_timed, "t"), &momenta.statements);
+        let (apart, statements) = (fields.read_by(momenta, is_timed, "t"), &momenta.statements);
         let half = momenta.half();
         let of_fields = parameter("fields", apart.is_some());
         let (v, h) =
@@ -32,12 +30,10 @@ impl Text<'_> {
             }
         };
 
-        let (apart, statements) = (fields.read_by(&force, is_timed, "t"), &force.statements);
+        let (apart, statements) = (fields.read_by(force, is_timed, "t"), &force.statements);
         let of_fields = parameter("fields", apart.is_some());
         let (q, outputs) = (parameter("q", force.uses_coordinates), &force.outputs);
         quote! {
-            #gathered
-
             #velocity_momenta
 
             #[inline(always)]

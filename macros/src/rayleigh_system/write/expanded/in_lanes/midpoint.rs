@@ -4,20 +4,13 @@ use super::*;
 
 impl Text<'_> {
     /// The functions of `DiscreteInLanes`.
-    pub(in super::super) fn midpoint_in_lanes(
+    pub(super) fn midpoint_in_lanes(
         &self,
-        functions: &[Routine; 2],
+        [kernel, momenta]: &[StraightLine; 2],
+        fields: &OfMembers<'_>,
         diagonals: Option<usize>,
     ) -> TokenStream {
-        let [kernel, momenta] = functions.each_ref().map(|function| self.line(function));
-        let fields = OfMembers::fields_of(self, [&kernel, &momenta]);
-        let is_timed = self.system.timed.any();
-        let timed = is_timed.then(|| {
-            quote!(
-                const IS_TIMED: bool = true;
-            )
-        });
-        let gathered = self.gathered(&fields);
+        let is_timed = self.system.is_timed();
         let (scalar, n, members) = (&self.system.scalar, self.system.degrees.times(1), &fields.members);
         let vector = fields.vector(&n);
         let row = diagonals.map(|diagonals| fields.vector(&Literal::usize_unsuffixed(diagonals)));
@@ -53,15 +46,11 @@ impl Text<'_> {
         };
         let result = quote!(([#(#p0),*], [#(#rows),*]));
         let ty = quote!((#vector, [#row; #n]));
-        let step_kernel = function("step_kernel_in_lanes", &kernel, result, ty);
+        let step_kernel = function("step_kernel_in_lanes", kernel, result, ty);
         let (p0, p1) = momenta.outputs.split_at(self.derived.n);
         let result = quote!([[#(#p0),*], [#(#p1),*]]);
-        let momenta = function("momenta_in_lanes", &momenta, result, quote!([#vector; 2]));
+        let momenta = function("momenta_in_lanes", momenta, result, quote!([#vector; 2]));
         quote! {
-            #timed
-
-            #gathered
-
             #step_kernel
 
             #momenta

@@ -4,19 +4,39 @@
 use super::super::stages::Anchors;
 use super::*;
 
-impl Text<'_> {
-    /// The functions of `ForcedLagrangianInLanes`.
-    pub(in super::super) fn stages_in_lanes(&self, functions: &[Routine; 2]) -> TokenStream {
-        let [line, corrections] = functions.each_ref().map(|function| self.line(function));
-        let handed = &functions[0].outputs[self.derived.n..];
+/// Both lines, and the nodes that the first hands over.
+pub(super) struct StageLines {
+    rates: StraightLine,
+    corrections: StraightLine,
+    handed: Vec<Node>,
+}
 
-        let is_handed = |field: &&Field| handed.contains(&field.node);
-        let kept = corrections.fields.iter().filter(is_handed).map(|field| (field.node, field.is_truth));
-        let kept = OfMembers::new(self, kept);
-        let of_corrections = corrections.fields.iter().filter(|field| !is_handed(field));
-        let fields = line.fields.iter().chain(of_corrections).map(|field| (field.node, field.is_truth));
-        let fields = OfMembers::new(self, fields);
-        let gathered = self.gathered(&fields);
+impl StageLines {
+    pub(super) fn new([rates, corrections]: [StraightLine; 2], handed: Vec<Node>) -> Self {
+        Self { rates, corrections, handed }
+    }
+
+    /// The fields that the code reads.
+    pub(super) fn fields(&self) -> impl Iterator<Item = &Field> {
+        let of_corrections = self.corrections.fields.iter().filter(|field| !self.hands(field));
+        self.rates.fields.iter().chain(of_corrections)
+    }
+
+    fn hands(&self, field: &Field) -> bool {
+        self.handed.contains(&field.node)
+    }
+}
+
+impl Text<'_> {
+    /// The nodes that the rates hand to the corrections.
+    pub(super) fn handed_over(&self, [rates, _]: &[Routine; 2]) -> Vec<Node> {
+        rates.outputs[self.derived.n..].to_vec()
+    }
+
+    /// The functions of `ForcedLagrangianInLanes`.
+    pub(super) fn stages_in_lanes(&self, lines: &StageLines, fields: &OfMembers<'_>) -> TokenStream {
+        let StageLines { rates: line, corrections, handed } = lines;
+        let kept = OfMembers::new(self, corrections.fields.iter().filter(|field| lines.hands(field)));
 
         let (scalar, members) = (&self.system.scalar, &fields.members);
         let vector = fields.vector(&self.system.degrees.times(1));
@@ -25,8 +45,8 @@ impl Text<'_> {
             let place = handed.iter().position(|&other| other == node);
             place.map_or_else(TokenStream::new, |place| of_kept[place].clone())
         });
-        let is_timed = self.system.timed.any();
-        let apart = fields.read_by(&line, is_timed, "t");
+        let is_timed = self.system.is_timed();
+        let apart = fields.read_by(line, is_timed, "t");
         let of_fields = parameter("fields", apart.is_some());
         let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
         let (statements, kept_ty) = (&line.statements, kept.ty());
@@ -34,7 +54,7 @@ impl Text<'_> {
             let of = self.name("Members");
             quote!(#of<#scalar, #members>)
         };
-        let anchors = Anchors::new(&line, of_members, self.system.is_fused);
+        let anchors = Anchors::new(line, of_members, self.system.fused.is_some());
         let (anchors_ty, of_anchors, anchors_apart) = (&anchors.ty, &anchors.parameter, &anchors.apart);
         let rates = quote! {
             #[inline(always)]
@@ -52,15 +72,13 @@ impl Text<'_> {
         };
 
         let (apart, kept_apart) =
-            (fields.read_by(&corrections, is_timed, "t"), kept.taken_apart("kept", &corrections));
+            (fields.read_by(corrections, is_timed, "t"), kept.taken_apart("kept", corrections));
         let (of_fields, of_kept) =
             (parameter("fields", apart.is_some()), parameter("kept", !kept.is_empty()));
         let (v, p) = (parameter("v", corrections.uses_velocities), parameter("p", corrections.uses("p")));
         let (residuals, of_velocities) = corrections.outputs.split_at(self.derived.n);
         let statements = &corrections.statements;
         quote! {
-            #gathered
-
             type Kept<const #members: usize> = #kept_ty;
 
             type AnchorsInLanes<const #members: usize> = #anchors_ty;

@@ -1,0 +1,22 @@
+//! A system as other languages see it: its fields by name and number, and its steps by a rule.
+//!
+//! `#[rayleigh_system]` describes a system ([`Described`]), and [`fields!`] the struct of its fields. Of the
+//! two [`By`] makes what the bindings to C, FMI and Python step: each stands on this crate, none on another.
+
+#![no_std]
+
+#[doc(hidden)]
+pub use dalembert;
+pub use dalembert::system::Described;
+
+mod columns;
+mod fields;
+mod interface;
+mod layout;
+mod number;
+
+pub use columns::{ByInput, ByParameters, Column, by_state};
+pub use fields::{Field, FieldType, Fields};
+pub use interface::{By, Input, Interface, coordinates, start};
+pub use layout::layout;
+pub use number::Number;

@@ -1,0 +1,310 @@
+//! One instance: its variables, its run, and what is allowed when.
+
+mod derivatives;
+mod saved;
+
+use std::rc::Rc;
+
+use dalembert::run::DrivenTrajectory;
+use dalembert::system::Scalar;
+use dalembert::{Lagrangian, State, nalgebra::SVector};
+use dalembert_face::{Described, Fields, Input, Interface, Number, start};
+
+use crate::Unit;
+use crate::model::Model;
+use crate::refusal::{Mode, Refusal};
+use crate::variables::{self, Place, Role, Variable, number, type_name};
+
+/// How far the importer's clock may be from the unit's, in steps: what sums of communication steps round to.
+const DRIFT: f64 = 1e-3;
+/// How far a communication step may be from a multiple of h, in steps.
+const ROUNDING: f64 = 1e-6;
+
+type Run<I, const N: usize> = DrivenTrajectory<<I as Interface<N>>::Kind, <I as Interface<N>>::Rule, N>;
+
+/// An instance of a unit.
+pub struct CoSimulation<I: Interface<N>, const N: usize> {
+    unit: &'static Unit<I, N>,
+    variables: Rc<[Variable]>,
+    mode: Mode,
+    start_time: f64,
+    step_size: I::Scalar,
+    system: I::System,
+    input: Vec<I::Scalar>,
+    /// (q, v) that the run begins at.
+    start: [[I::Scalar; N]; 2],
+    /// From the end of initialization on.
+    run: Option<Run<I, N>>,
+    /// The last communication step, while neither state nor parameters were set since.
+    last: Option<Communication<I, N>>,
+}
+
+/// (q, p) and v.
+type Motion<S, const N: usize> = (State<S, N>, SVector<S, N>);
+
+/// Where a communication step began, and what it was taken with.
+struct Communication<I: Interface<N>, const N: usize> {
+    before: Run<I, N>,
+    system: I::System,
+    input: Vec<I::Scalar>,
+    steps: u64,
+}
+
+impl<I: Interface<N>, const N: usize> Clone for Communication<I, N> {
+    fn clone(&self) -> Self {
+        Self {
+            before: self.before.clone(),
+            system: self.system,
+            input: self.input.clone(),
+            steps: self.steps,
+        }
+    }
+}
+
+impl<I: Interface<N>, const N: usize> Clone for CoSimulation<I, N> {
+    fn clone(&self) -> Self {
+        Self {
+            unit: self.unit,
+            variables: self.variables.clone(),
+            mode: self.mode,
+            start_time: self.start_time,
+            step_size: self.step_size,
+            system: self.system,
+            input: self.input.clone(),
+            start: self.start,
+            run: self.run.clone(),
+            last: self.last.clone(),
+        }
+    }
+}
+
+impl<I: Interface<N>, const N: usize> CoSimulation<I, N> {
+    pub fn new(unit: &'static Unit<I, N>) -> Self {
+        Self::begun(unit, variables::of(unit).into())
+    }
+
+    fn begun(unit: &'static Unit<I, N>, variables: Rc<[Variable]>) -> Self {
+        Self {
+            unit,
+            variables,
+            mode: Mode::Instantiated,
+            start_time: 0.0,
+            step_size: unit.step_size,
+            system: unit.parameters,
+            input: vec![I::Scalar::constant(0.0); I::System::INPUTS],
+            start: unit.start,
+            run: None,
+            last: None,
+        }
+    }
+
+    fn variable(&self, reference: u32) -> Result<&Variable, Refusal> {
+        self.variables.get(reference as usize).ok_or(Refusal::NoVariable(reference))
+    }
+
+    /// `input` and the time, as the system takes them.
+    fn given(input: &[I::Scalar], time: f64) -> (I::Input, I::Scalar) {
+        let input = I::Input::of(input).expect("as many inputs as the unit has");
+        (input, I::Scalar::constant(time))
+    }
+
+    fn without_input(&self) -> (I::Input, I::Scalar) {
+        Self::given(&vec![I::Scalar::constant(0.0); self.input.len()], self.time())
+    }
+
+    /// The system without an input, now: what velocities, momenta and energy are asked of.
+    fn undriven(&self) -> I::View<'_> {
+        let (input, time) = self.without_input();
+        I::view(&self.system, input, time)
+    }
+
+    /// (q, p) and v.
+    fn motion(&self) -> Result<Motion<I::Scalar, N>, Refusal> {
+        let system = self.undriven();
+        let motion = match &self.run {
+            Some(run) => run.state().velocity(&system).map(|v| (*run.state(), v)),
+            None => {
+                let [q, v] = self.start.map(SVector::from);
+                State::from_velocity(&system, q, v).map(|state| (state, v))
+            }
+        };
+        motion.map_err(|error| Refusal::Step { error, time: self.time() })
+    }
+
+    fn require(&self, mode: Mode) -> Result<(), Refusal> {
+        if self.mode == mode { Ok(()) } else { Err(Refusal::NotNow(self.mode)) }
+    }
+
+    fn set_value(&mut self, reference: u32, value: Number) -> Result<(), Refusal> {
+        let variables = self.variables.clone();
+        let variable = variables.get(reference as usize).ok_or(Refusal::NoVariable(reference))?;
+        let name = || variable.name.clone();
+        if type_name(value) != type_name(variable.start) {
+            return Err(Refusal::AnotherType { name: name(), kind: type_name(variable.start) });
+        }
+        let before_the_run = matches!(self.mode, Mode::Instantiated | Mode::Initialization);
+        let settable = match variable.role {
+            Role::Independent | Role::Calculated => false,
+            Role::Fixed | Role::Exact => before_the_run,
+            Role::Tunable | Role::Input => self.mode != Mode::Terminated,
+        };
+        if !settable {
+            return Err(Refusal::NotSettable { name: name(), mode: self.mode });
+        }
+        let scalar = match value {
+            Number::F64(value) => value,
+            Number::F32(value) => value.into(),
+            _ => 0.0,
+        };
+        let is_parameter = matches!(variable.place, Place::Parameter { .. });
+        if scalar.is_nan() || scalar.is_infinite() && !is_parameter {
+            return Err(Refusal::NotFinite { name: name() });
+        }
+        let scalar = I::Scalar::constant(scalar);
+        match variable.place {
+            Place::Parameter { field, index } => {
+                let before = self.system.entry(field, index);
+                self.system.change_entry(field, index, value);
+                // Importers set again what has not changed.
+                if before != Some(value) {
+                    // What the run remembers is of the system before.
+                    self.run = self.run.take().map(|run| DrivenTrajectory::resume(run.present()));
+                    self.last = None;
+                }
+            }
+            Place::StepSize if scalar.widen() <= 0.0 => return Err(Refusal::StepSize(scalar.widen())),
+            Place::StepSize => self.step_size = scalar,
+            Place::Input(i) => self.input[i] = scalar,
+            Place::Configuration(i) => self.start[0][i] = scalar,
+            Place::Velocity(i) => self.start[1][i] = scalar,
+            Place::Time | Place::Momentum(_) | Place::Energy => {}
+        }
+        Ok(())
+    }
+}
+
+impl<I: Interface<N>, const N: usize> Model for CoSimulation<I, N> {
+    fn time(&self) -> f64 {
+        self.start_time + self.run.as_ref().map_or(0.0, DrivenTrajectory::time)
+    }
+
+    fn kinds(&self, references: &[u32]) -> Result<Vec<Number>, Refusal> {
+        references.iter().map(|&reference| self.variable(reference).map(|variable| variable.start)).collect()
+    }
+
+    fn values(&self, references: &[u32]) -> Result<Vec<Number>, Refusal> {
+        let mut motion = None;
+        let mut values = Vec::with_capacity(references.len());
+        for &reference in references {
+            let variable = self.variable(reference)?;
+            values.push(match variable.place {
+                Place::Time => Number::F64(self.time()),
+                Place::StepSize => number(self.step_size),
+                Place::Parameter { field, index } => {
+                    self.system.entry(field, index).expect("variables are listed from the fields")
+                }
+                Place::Input(i) => number(self.input[i]),
+                // As they were set, while nothing follows from them.
+                Place::Configuration(i) if self.run.is_none() => number(self.start[0][i]),
+                Place::Velocity(i) if self.run.is_none() => number(self.start[1][i]),
+                of_motion => {
+                    let (state, v) = match motion {
+                        Some(motion) => motion,
+                        None => *motion.insert(self.motion()?),
+                    };
+                    number(match of_motion {
+                        Place::Configuration(i) => state.q[i],
+                        Place::Velocity(i) => v[i],
+                        Place::Momentum(i) => state.p[i],
+                        _ => self.undriven().energy(&state.q, &v),
+                    })
+                }
+            });
+        }
+        Ok(values)
+    }
+
+    fn set_values(&mut self, references: &[u32], values: &[Number]) -> Result<(), Refusal> {
+        if references.len() != values.len() {
+            return Err(Refusal::Lengths { asked: references.len(), given: values.len() });
+        }
+        let mut changed = self.clone();
+        for (&reference, &value) in references.iter().zip(values) {
+            changed.set_value(reference, value)?;
+        }
+        *self = changed;
+        Ok(())
+    }
+
+    fn enter_initialization(&mut self, start_time: f64) -> Result<(), Refusal> {
+        self.require(Mode::Instantiated)?;
+        if !start_time.is_finite() {
+            return Err(Refusal::StartTime(start_time));
+        }
+        (self.mode, self.start_time) = (Mode::Initialization, start_time);
+        Ok(())
+    }
+
+    fn exit_initialization(&mut self) -> Result<(), Refusal> {
+        self.require(Mode::Initialization)?;
+        let run = start::<I, N>(&self.system, self.without_input(), self.step_size, self.start);
+        self.run = Some(run.map_err(|error| Refusal::Step { error, time: self.start_time })?);
+        self.mode = Mode::Step;
+        Ok(())
+    }
+
+    fn step(&mut self, point: f64, size: f64) -> Result<(), Refusal> {
+        self.require(Mode::Step)?;
+        let (own, h) = (self.time(), self.step_size.widen());
+        let is_here = (point - own).abs() <= DRIFT * h;
+        if !is_here {
+            return Err(Refusal::AnotherTime { given: point, own });
+        }
+        let steps = (size / h).round();
+        if !(steps >= 1.0 && (size / h - steps).abs() <= ROUNDING && steps <= f64::from(u32::MAX)) {
+            return Err(Refusal::NotAMultiple { size, step_size: h });
+        }
+        let mut run = self.run.clone().ok_or(Refusal::NotNow(self.mode))?;
+        for _ in 0..steps as u64 {
+            let time = self.start_time + run.time();
+            let (input, now) = Self::given(&self.input, time);
+            let view = I::view(&self.system, input, now);
+            run.advance(&view).map_err(|error| Refusal::Step { error, time })?;
+        }
+        let (system, input) = (self.system, self.input.clone());
+        let before = self.run.replace(run);
+        self.last = before.map(|before| Communication { before, system, input, steps: steps as u64 });
+        Ok(())
+    }
+
+    fn terminate(&mut self) -> Result<(), Refusal> {
+        self.require(Mode::Step)?;
+        self.mode = Mode::Terminated;
+        Ok(())
+    }
+
+    fn reset(&mut self) {
+        *self = Self::begun(self.unit, self.variables.clone());
+    }
+
+    fn directional_derivative(
+        &self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+    ) -> Result<Vec<f64>, Refusal> {
+        derivatives::along(self, unknowns, knowns, seed)
+    }
+
+    fn copy(&self) -> Box<dyn Model> {
+        Box::new(self.clone())
+    }
+
+    fn bytes(&self) -> Vec<u8> {
+        saved::bytes(self)
+    }
+
+    fn of_bytes(&self, bytes: &[u8]) -> Result<Box<dyn Model>, Refusal> {
+        Ok(Box::new(saved::read(self, bytes)?))
+    }
+}

@@ -1,0 +1,309 @@
+//! Events of a run, whatever makes its steps: when functions of its motion vanish.
+
+use core::fmt;
+
+use dalembert::nalgebra::SVector;
+use dalembert::run::Run;
+use dalembert::run::between::{Divisible, Moment};
+use dalembert::run::events::{Crossing, Event as Happened, EventError, Watch, Watched};
+use dalembert::step::Step;
+use dalembert::{Lagrangian, State, StepError};
+
+use crate::motion::{Motion, measured};
+
+/// Most functions of one run.
+pub const MOST: usize = 8;
+
+/// An event function, of (t, q, v).
+pub type Given<'a> = dyn Fn(f64, &[f64], &[f64]) -> f64 + Send + Sync + 'a;
+
+/// A function whose zeros are events.
+pub enum Function<'a> {
+    /// a·q + b·v − c, of numbers alone: asked for without Python.
+    Plane {
+        /// a.
+        q: Vec<f64>,
+        /// b.
+        v: Vec<f64>,
+        /// c.
+        value: f64,
+    },
+    /// Any other.
+    Given(Box<Given<'a>>),
+}
+
+impl fmt::Debug for Function<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Plane { q, v, value } => write!(f, "q·{q:?} + v·{v:?} = {value:?}"),
+            Self::Given(_) => f.write_str("a function"),
+        }
+    }
+}
+
+/// A function, and which of its zeros count.
+#[derive(Debug)]
+pub struct Event<'a> {
+    /// The function.
+    pub function: Function<'a>,
+    /// In which direction it passes 0.
+    pub crossing: Crossing,
+    /// Whether the run ends there.
+    pub is_terminal: bool,
+}
+
+/// The events of one function, one after the other.
+#[derive(Clone, Debug, Default)]
+pub struct Found {
+    /// Times.
+    pub t: Vec<f64>,
+    /// Configurations.
+    pub q: Vec<f64>,
+    /// Velocities.
+    pub v: Vec<f64>,
+    /// Momenta.
+    pub p: Vec<f64>,
+}
+
+impl Found {
+    /// One more, of a run that begins at the time `origin`.
+    pub fn add<const N: usize>(&mut self, origin: f64, event: &Happened<f64, N>) {
+        self.t.push(origin + event.time);
+        self.q.extend_from_slice(event.state.q.as_slice());
+        self.v.extend_from_slice(event.velocity.as_slice());
+        self.p.extend_from_slice(event.state.p.as_slice());
+    }
+}
+
+/// Events to be looked for along a run.
+#[derive(Clone, Copy, Debug)]
+pub struct Events<'a> {
+    /// At most [`MOST`].
+    pub asked: &'a [Event<'a>],
+    /// The time at the start of the run.
+    pub origin: f64,
+}
+
+/// A function of the index of a node, of q there and of v.
+type Visit<'v, const N: usize> = dyn FnMut(usize, &SVector<f64, N>, &SVector<f64, N>) + 'v;
+
+/// A run that is [`Divisible`], without its type.
+pub(crate) trait Divided<L, const N: usize> {
+    fn take(&mut self) -> Option<Result<Step<f64, N>, StepError>>;
+    fn state(&self) -> &State<f64, N>;
+    fn time(&self) -> f64;
+    fn system(&self) -> &L;
+    fn since(&self) -> f64;
+    fn step_size(&self) -> f64;
+    fn nodes(&self) -> &'static [f64];
+    fn at_nodes(&self, q0: &SVector<f64, N>, h: f64, visit: &mut Visit<'_, N>);
+    fn between(&self, q0: &SVector<f64, N>, h: f64, share: f64) -> Option<[SVector<f64, N>; 2]>;
+    fn velocity(&self, time: f64, state: &State<f64, N>) -> Result<SVector<f64, N>, StepError>;
+    fn beginning(
+        &self,
+        time: f64,
+        state: &State<f64, N>,
+        mean: &SVector<f64, N>,
+        sizes: [f64; 2],
+    ) -> Result<State<f64, N>, StepError>;
+}
+
+impl<L, T, const N: usize> Divided<L, N> for T
+where
+    T: Divisible<N, System = L, Scalar = f64>,
+{
+    fn take(&mut self) -> Option<Result<Step<f64, N>, StepError>> {
+        self.next()
+    }
+
+    fn state(&self) -> &State<f64, N> {
+        Run::state(self)
+    }
+
+    fn time(&self) -> f64 {
+        Run::time(self)
+    }
+
+    fn system(&self) -> &L {
+        Divisible::system(self)
+    }
+
+    fn since(&self) -> f64 {
+        Divisible::since(self)
+    }
+
+    fn step_size(&self) -> f64 {
+        Divisible::step_size(self)
+    }
+
+    fn nodes(&self) -> &'static [f64] {
+        Divisible::nodes(self)
+    }
+
+    fn at_nodes(&self, q0: &SVector<f64, N>, h: f64, visit: &mut Visit<'_, N>) {
+        Divisible::at_nodes(self, q0, h, visit);
+    }
+
+    fn between(&self, q0: &SVector<f64, N>, h: f64, share: f64) -> Option<[SVector<f64, N>; 2]> {
+        Divisible::between(self, q0, h, share)
+    }
+
+    fn velocity(&self, time: f64, state: &State<f64, N>) -> Result<SVector<f64, N>, StepError> {
+        Divisible::velocity(self, time, state)
+    }
+
+    fn beginning(
+        &self,
+        time: f64,
+        state: &State<f64, N>,
+        mean: &SVector<f64, N>,
+        sizes: [f64; 2],
+    ) -> Result<State<f64, N>, StepError> {
+        Divisible::beginning(self, time, state, mean, sizes)
+    }
+}
+
+/// A run by some method: watching is compiled for a system, not for each of its methods.
+struct BySome<'r, L, const N: usize>(&'r mut dyn Divided<L, N>);
+
+impl<L, const N: usize> Iterator for BySome<'_, L, N> {
+    type Item = Result<Step<f64, N>, StepError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.0.take()
+    }
+}
+
+impl<L, const N: usize> Run<N> for BySome<'_, L, N> {
+    type Scalar = f64;
+
+    fn state(&self) -> &State<f64, N> {
+        self.0.state()
+    }
+
+    fn time(&self) -> f64 {
+        self.0.time()
+    }
+}
+
+impl<L: Lagrangian<N, Scalar = f64>, const N: usize> Divisible<N> for BySome<'_, L, N> {
+    type System = L;
+
+    fn system(&self) -> &L {
+        self.0.system()
+    }
+
+    fn since(&self) -> f64 {
+        self.0.since()
+    }
+
+    fn step_size(&self) -> f64 {
+        self.0.step_size()
+    }
+
+    fn nodes(&self) -> &'static [f64] {
+        self.0.nodes()
+    }
+
+    fn at_nodes(
+        &self,
+        q0: &SVector<f64, N>,
+        h: f64,
+        mut visit: impl FnMut(usize, &SVector<f64, N>, &SVector<f64, N>),
+    ) {
+        self.0.at_nodes(q0, h, &mut visit);
+    }
+
+    fn between(&self, q0: &SVector<f64, N>, h: f64, share: f64) -> Option<[SVector<f64, N>; 2]> {
+        self.0.between(q0, h, share)
+    }
+
+    fn velocity(&self, time: f64, state: &State<f64, N>) -> Result<SVector<f64, N>, StepError> {
+        self.0.velocity(time, state)
+    }
+
+    fn beginning(
+        &self,
+        time: f64,
+        state: &State<f64, N>,
+        mean: &SVector<f64, N>,
+        sizes: [f64; 2],
+    ) -> Result<State<f64, N>, StepError> {
+        self.0.beginning(time, state, mean, sizes)
+    }
+}
+
+/// A run that is watched, while it is recorded.
+struct Watching<'t, 'r, 'e, L: Lagrangian<N, Scalar = f64>, G, const N: usize> {
+    watch: Watch<'t, BySome<'r, L, N>, G, N, MOST>,
+    asked: &'e [Event<'e>],
+    /// Where a terminal event has ended the run.
+    end: Option<(f64, State<f64, N>)>,
+}
+
+/// Records `run` while it is watched for events.
+pub(crate) fn watched<L, const N: usize>(
+    run: &mut dyn Divided<L, N>,
+    Events { asked, origin }: Events<'_>,
+    record: &mut dyn FnMut(&mut dyn Motion<N>),
+) where
+    L: Lagrangian<N, Scalar = f64>,
+{
+    let mut run = BySome(run);
+    let functions = |at: &Moment<'_, L, N>| {
+        let mut values = [1.0; MOST];
+        let mut velocity = None;
+        for (value, Event { function, .. }) in values.iter_mut().zip(asked) {
+            let mut v = || *velocity.get_or_insert_with(|| at.velocity());
+            *value = match function {
+                Function::Plane { q, v: by_v, value } => {
+                    let of_v = if by_v.is_empty() { 0.0 } else { dot(by_v, v().as_slice()) };
+                    dot(q, at.q.as_slice()) + of_v - value
+                }
+                Function::Given(function) => function(origin + at.time, at.q.as_slice(), v().as_slice()),
+            };
+        }
+        values
+    };
+    let mut crossings = [Crossing::Either; MOST];
+    crossings.iter_mut().zip(asked).for_each(|(crossing, event)| *crossing = event.crossing);
+    let watch = Watch::new(&mut run, functions).crossing(crossings);
+    record(&mut Watching { watch, asked, end: None });
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+impl<L, G, const N: usize> Motion<N> for Watching<'_, '_, '_, L, G, N>
+where
+    L: Lagrangian<N, Scalar = f64>,
+    G: Fn(&Moment<'_, L, N>) -> [f64; MOST],
+{
+    fn advance(&mut self) -> Option<Result<Watched<f64, N>, EventError>> {
+        if self.end.is_some() {
+            return None;
+        }
+        let next = self.watch.advance()?;
+        if let Ok(Watched::Event(event)) = &next
+            && self.asked.get(event.index).is_some_and(|asked| asked.is_terminal)
+        {
+            self.end = Some((event.time, event.state));
+        }
+        Some(next)
+    }
+
+    fn state(&self) -> &State<f64, N> {
+        self.end.as_ref().map_or_else(|| Run::state(self.watch.run()), |(_, state)| state)
+    }
+
+    fn time(&self) -> f64 {
+        self.end.map_or_else(|| Run::time(self.watch.run()), |(time, _)| time)
+    }
+
+    fn measured(&self) -> Result<(SVector<f64, N>, f64), StepError> {
+        let run = self.watch.run();
+        Divisible::system(run)
+            .later(self.time() - Divisible::since(run), |system| measured(system, self.state()))
+    }
+}

@@ -1,0 +1,141 @@
+//! Event functions as Python gives them.
+
+use core::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use dalembert::run::events::Crossing;
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyModule;
+
+use crate::arguments::vector;
+use crate::arrays::to_array;
+use crate::events::{Event, Function, MOST};
+
+/// A plane that a run crosses: q·a + v·b = value.
+///
+/// An event function like any other, which is asked for without Python.
+///
+/// Parameters
+/// ----------
+/// q : a, n numbers
+/// v : b, n numbers; 0 unless said
+/// value : the right side
+/// direction : 1 counts crossings from below, -1 those from above, 0 all
+/// terminal : whether the run ends there
+#[pyclass(frozen, get_all)]
+pub struct Plane {
+    /// a.
+    q: Vec<f64>,
+    /// b.
+    v: Option<Vec<f64>>,
+    /// The right side.
+    value: f64,
+    /// Which crossings count.
+    direction: f64,
+    /// Whether the run ends there.
+    terminal: bool,
+}
+
+#[pymethods]
+impl Plane {
+    #[new]
+    #[pyo3(signature = (q, v=None, *, value=0.0, direction=0.0, terminal=false))]
+    fn new(q: Vec<f64>, v: Option<Vec<f64>>, value: f64, direction: f64, terminal: bool) -> Self {
+        Self { q, v, value, direction, terminal }
+    }
+
+    fn __repr__(&self) -> String {
+        let Self { q, v, value, direction, terminal } = self;
+        let v = v.as_ref().map_or_else(String::new, |v| format!(", v={v:?}"));
+        let terminal = if *terminal { ", terminal=True" } else { "" };
+        format!("Plane(q={q:?}{v}, value={value:?}, direction={direction:?}{terminal})")
+    }
+}
+
+/// The first exception that event functions have raised. It calls off what asks them.
+#[derive(Default)]
+pub struct Raised {
+    first: Mutex<Option<PyErr>>,
+    cancel: AtomicBool,
+}
+
+impl Raised {
+    fn put(&self, error: PyErr) {
+        self.first.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+        self.cancel.store(true, Ordering::Relaxed);
+    }
+
+    /// Takes the exception out.
+    pub fn take(&self) -> Option<PyErr> {
+        self.first.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    /// Whether all is to end: others may set it too.
+    pub fn cancel(&self) -> &AtomicBool {
+        &self.cancel
+    }
+}
+
+/// The functions that `events=` lists, for a system with `n` coordinates: planes and callables of (t, q, v). What a callable raises is put
+/// into `raised`.
+///
+/// # Errors
+/// `TypeError`, `ValueError`.
+pub fn functions<'a>(
+    py: Python<'_>,
+    given: Option<Vec<Bound<'_, PyAny>>>,
+    n: usize,
+    raised: &'a Raised,
+) -> PyResult<Vec<Event<'a>>> {
+    let given = given.unwrap_or_default();
+    if given.len() > MOST {
+        return Err(PyValueError::new_err(format!(
+            "events: expected at most {MOST} functions, got {}",
+            given.len()
+        )));
+    }
+    given.into_iter().map(|function| event(py, &function, n, raised)).collect()
+}
+
+fn event<'a>(py: Python<'_>, given: &Bound<'_, PyAny>, n: usize, raised: &'a Raised) -> PyResult<Event<'a>> {
+    let attribute = |name: &str| given.getattr_opt(name);
+    let direction: f64 = attribute("direction")?.map_or(Ok(0.0), |direction| direction.extract())?;
+    let is_terminal = attribute("terminal")?.map_or(Ok(false), |terminal| terminal.is_truthy())?;
+    let crossing = match direction {
+        direction if direction > 0.0 => Crossing::Rising,
+        direction if direction < 0.0 => Crossing::Falling,
+        _ => Crossing::Either,
+    };
+    let function = if let Ok(plane) = given.cast::<Plane>() {
+        let Plane { q, v, value, .. } = plane.get();
+        let v = v
+            .as_ref()
+            .map_or(Ok(Vec::new()), |v| vector("events: v", &v.into_pyobject(py)?.into_any(), n))?;
+        Function::Plane { q: vector("events: q", &q.into_pyobject(py)?.into_any(), n)?, v, value: *value }
+    } else if given.is_callable() {
+        let callable = given.clone().unbind();
+        Function::Given(Box::new(move |t, q, v| {
+            let value = Python::attach(|py| -> PyResult<f64> {
+                let vector = |numbers: &[f64]| to_array(py, numbers.to_vec(), [numbers.len()]);
+                callable.call1(py, (t, vector(q)?, vector(v)?))?.extract(py)
+            });
+            value.unwrap_or_else(|error| {
+                raised.put(error);
+                f64::NAN
+            })
+        }))
+    } else {
+        return Err(PyTypeError::new_err("events: expected planes, or functions of (t, q, v)"));
+    };
+    Ok(Event { function, crossing, is_terminal })
+}
+
+/// Adds the class to `module`, as its own.
+///
+/// # Errors
+/// Those of Python.
+pub fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<Plane>()?;
+    module.getattr("Plane")?.setattr("__module__", module.name()?)
+}

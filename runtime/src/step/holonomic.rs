@@ -1,0 +1,80 @@
+//! Steps on holonomic constraints.
+//!
+//! ```text
+//! p0 = −D1 L_d − f_d⁻ − (h/2) G(q0)ᵀλ        g(q1) = 0
+//! p1 = D2 L_d + f_d⁺ + G(q1)ᵀμ               μ: G(q1)·v(q1, p1) + ∂g/∂t = 0
+//! ```
+//!
+//! with L_d and f_d of the rule, and G = ∂g/∂q. The pair (L_d, R_d), restricted to N×N with N = g⁻¹(0), is a
+//! Rayleigh pair again, whose step this is: the motion depends on N alone, neither on how g is written nor on
+//! μ.
+//!
+//! **The equation for v̄ alone.** λ enters linearly. With W = ∂p0/∂v̄, r = p0(v̄) − p0 and c = g(q1)/h a
+//! Newton step is
+//!
+//! ```text
+//! ⎡ W        G(q0)ᵀ ⎤ ⎡ δ ⎤   ⎡ r ⎤
+//! ⎣ G(q1)      0    ⎦ ⎣ κ ⎦ = ⎣ c ⎦        κ = (h/2)λ,   v̄ ← v̄ − δ
+//! ```
+//!
+//! so that W δ = F(v̄) = r − G(q0)ᵀ S⁻¹(G(q1) W⁻¹ r − c), S = G(q1) W⁻¹ G(q0)ᵀ. The solver of every other
+//! step is given F, whose root is the step on N, with the matrix W: band, guesses, damping and verdicts stay
+//! as they are, and no second derivative of g is asked for.
+
+mod columns;
+mod complement;
+mod equation;
+mod inertia;
+mod linearized;
+mod nearest;
+mod reactions;
+
+use nalgebra::SVector;
+
+use crate::step::{
+    Border, BoundedStep, ClosedForm, Discrete, PhaseMatrix, State, Step, StepError, step_by, step_within_by,
+};
+use crate::system::Constrained;
+use equation::OnConstraints;
+
+/// M holonomic constraints, [`Constrained`]: the border of a step on N = g⁻¹(0).
+#[derive(Clone, Copy, Debug)]
+pub struct Holonomic<const M: usize>;
+
+impl<L, R, const N: usize, const M: usize> Border<L, R, N> for Holonomic<M>
+where
+    L: ClosedForm<R, N> + Discrete<R, N> + Constrained<N, M>,
+{
+    fn step(
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+        guess: Option<&SVector<L::Scalar, N>>,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        let equation = OnConstraints::<L, R, N, M>::new(system, state);
+        let step = step_by(system, &equation, state, h, guess).map_err(|error| equation.explained(error))?;
+        equation.on_constraints(step, h)
+    }
+
+    fn step_within(
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+        guess: Option<&SVector<L::Scalar, N>>,
+        iterations: u32,
+    ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
+        let equation = OnConstraints::<L, R, N, M>::new(system, state);
+        let BoundedStep { step, converged } = step_within_by(system, &equation, state, h, guess, iterations)
+            .map_err(|error| equation.explained(error))?;
+        Ok(BoundedStep { step: equation.on_constraints(step, h)?, converged })
+    }
+
+    fn step_matrix(
+        system: &L,
+        state: &State<L::Scalar, N>,
+        step: &Step<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<PhaseMatrix<L::Scalar, N>, StepError> {
+        linearized::step_matrix::<L, R, N, M>(system, state, step, h)
+    }
+}

@@ -1,0 +1,217 @@
+//! The equation of a step on constraints, for v̄ alone.
+
+use core::cell::RefCell;
+
+use nalgebra::{SMatrix, SVector};
+
+use super::columns::by_columns;
+use super::complement::Complement;
+use super::nearest::{dependent, tangent};
+use crate::numbers::{Factored, NewtonMatrix, Scalar, Singular};
+use crate::step::equation::{OfRule, StepEquation};
+use crate::step::{ClosedForm, Discrete, Momenta, Segment, State, Step, StepError, StepKernel};
+use crate::system::{Constrained, Violation, sizes, violation};
+
+/// Roundings of the terms of a constraint below which its value counts as 0.
+const ROUNDINGS: f64 = 4.0;
+
+/// The equation F(v̄) = 0 of a step on constraints from a state (q0, p), as p + F(v̄) = p.
+pub(super) struct OnConstraints<'a, L, R, const N: usize, const M: usize>
+where
+    L: ClosedForm<R, N>,
+{
+    system: &'a L,
+    free: OfRule<'a, L, R>,
+    state: &'a State<L::Scalar, N>,
+    /// G(q0)ᵀ, the directions of the reactions.
+    directions: SMatrix<L::Scalar, N, M>,
+    /// At the v̄ at which the kernel was asked for last.
+    last: RefCell<Option<Bordered<L::Scalar, L::Matrix, N, M>>>,
+}
+
+/// W, S and the gradients of the constraints at both ends.
+struct Bordered<S: Scalar, W: NewtonMatrix<S, N>, const N: usize, const M: usize> {
+    matrix: W::Factored,
+    directions: SMatrix<S, N, M>,
+    /// G(q1).
+    gradients: SMatrix<S, M, N>,
+    complement: Complement<S, M>,
+}
+
+impl<S: Scalar, W: NewtonMatrix<S, N>, const N: usize, const M: usize> Bordered<S, W, N, M> {
+    /// κ = (h/2)λ of what is left, r and c.
+    fn multipliers(&self, left: &SVector<S, N>, values: &SVector<S, M>) -> SVector<S, M> {
+        self.complement.solve(&(self.gradients * self.matrix.solve(left) - values))
+    }
+
+    /// F.
+    fn residual(&self, left: &SVector<S, N>, values: &SVector<S, M>) -> SVector<S, N> {
+        left - self.directions * self.multipliers(left, values)
+    }
+}
+
+/// The values of the constraints by h, 0 where rounding explains one.
+fn beyond_rounding<S: Scalar, const N: usize, const M: usize>(
+    mut values: SVector<S, M>,
+    gradients: &SMatrix<S, M, N>,
+    segment: &Segment<S, N>,
+) -> SVector<S, M> {
+    let unit = S::EPSILON * S::constant(ROUNDINGS);
+    let sizes = sizes(gradients, &(segment.q0.abs() + (segment.v * segment.h).abs()));
+    for (value, size) in values.as_mut_slice().iter_mut().zip(sizes.as_slice()) {
+        *value = if value.abs() <= *size * unit { S::zero() } else { *value / segment.h };
+    }
+    values
+}
+
+impl<'a, L, R, const N: usize, const M: usize> OnConstraints<'a, L, R, N, M>
+where
+    L: ClosedForm<R, N> + Discrete<R, N> + Constrained<N, M>,
+{
+    pub(super) fn new(system: &'a L, state: &'a State<L::Scalar, N>) -> Self {
+        let directions = system.constraint_gradients(&state.q).1.transpose();
+        Self { system, free: OfRule::new(system), state, directions, last: RefCell::new(None) }
+    }
+
+    /// W and S on the segment, where neither is singular beyond redundancy.
+    fn bordered(
+        &self,
+        segment: &Segment<L::Scalar, N>,
+        matrix: &L::Matrix,
+        gradients: SMatrix<L::Scalar, M, N>,
+    ) -> Option<Bordered<L::Scalar, L::Matrix, N, M>> {
+        // Where rounding is measured, q0 is moved.
+        let directions = if segment.q0 == self.state.q {
+            self.directions
+        } else {
+            self.system.constraint_gradients(&segment.q0).1.transpose()
+        };
+        let matrix = matrix.factored()?;
+        let answers = by_columns(&directions, |direction| matrix.solve(direction));
+        let complement = Complement::of(&(gradients * answers))?;
+        Some(Bordered { matrix, directions, gradients, complement })
+    }
+
+    /// c = g(q1)/h, 0 where rounding explains it, and G(q1).
+    fn at_end(&self, segment: &Segment<L::Scalar, N>) -> (SVector<L::Scalar, M>, SMatrix<L::Scalar, M, N>) {
+        let (values, gradients) =
+            self.system.later(segment.h, |system| system.constraint_gradients(&segment.end()));
+        (beyond_rounding(values, &gradients, segment), gradients)
+    }
+
+    /// κ = (h/2)λ on the segment of a step.
+    pub(super) fn multipliers(&self, segment: &Segment<L::Scalar, N>) -> Option<SVector<L::Scalar, M>> {
+        let kernel = self.free.kernel(segment);
+        let (values, gradients) = self.at_end(segment);
+        let bordered = self.bordered(segment, &kernel.matrix, gradients)?;
+        Some(bordered.multipliers(&(kernel.p0 - self.state.p), &values))
+    }
+
+    /// The step with its momentum on N: G(q1)·v(q1, p1) + ∂g/∂t = 0.
+    pub(super) fn on_constraints(
+        &self,
+        step: Step<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        let is_deficient = |last: &Option<Bordered<_, _, N, M>>| {
+            last.as_ref().is_some_and(|last| last.complement.is_deficient())
+        };
+        if self.last.try_borrow().is_ok_and(|last| is_deficient(&last)) {
+            self.require_on(&step, h)?;
+        }
+        let state = self.system.later(h, |system| tangent::<L, N, M>(system, &step.state))?;
+        state.require_reached()?;
+        Ok(Step { state, ..step })
+    }
+
+    /// Fails where q1 is off a constraint: those that seemed redundant contradict one another.
+    #[cold]
+    #[inline(never)]
+    fn require_on(&self, step: &Step<L::Scalar, N>, h: L::Scalar) -> Result<(), StepError> {
+        self.system.later(h, |system| match violation(system, &step.state.q, &nalgebra::zero()) {
+            Some(Violation::Off { constraint, .. }) => Err(StepError::DependentConstraints { constraint }),
+            _ => Ok(()),
+        })
+    }
+
+    /// The error of a step, by the constraints where these are its cause.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn explained(&self, error: StepError) -> StepError {
+        match error {
+            StepError::SingularNewtonMatrix { .. } | StepError::NoRealSolution { .. } => {
+                match dependent::<L, N, M>(self.system, &self.state.q) {
+                    Some(constraint) => StepError::DependentConstraints { constraint },
+                    None => error,
+                }
+            }
+            other => other,
+        }
+    }
+}
+
+impl<L, R, const N: usize, const M: usize> StepEquation<L::Scalar, N> for OnConstraints<'_, L, R, N, M>
+where
+    L: ClosedForm<R, N> + Discrete<R, N> + Constrained<N, M>,
+{
+    type Matrix = L::Matrix;
+
+    fn kernel(&self, segment: &Segment<L::Scalar, N>) -> StepKernel<L::Scalar, N, L::Matrix> {
+        let StepKernel { p0, matrix } = self.free.kernel(segment);
+        let (values, gradients) = self.at_end(segment);
+        let bordered = self.bordered(segment, &matrix, gradients);
+        let kernel = match &bordered {
+            Some(bordered) => {
+                let p = self.state.p;
+                StepKernel { p0: p + bordered.residual(&(p0 - p), &values), matrix }
+            }
+            // Singular itself, or the complement is: what is solved with it says so.
+            None if matrix.factored().is_none() => StepKernel { p0, matrix },
+            None => StepKernel { p0, matrix: NewtonMatrix::zero() },
+        };
+        if let Ok(mut last) = self.last.try_borrow_mut() {
+            *last = bordered;
+        }
+        kernel
+    }
+
+    /// F with W and S of the last kernel: to rounding that of the segment at a root.
+    fn momenta(&self, segment: &Segment<L::Scalar, N>) -> Momenta<L::Scalar, N> {
+        let Momenta { p0, p1 } = self.free.momenta(segment);
+        match self.last.try_borrow().as_deref() {
+            Ok(Some(last)) => {
+                let values = self.system.later(segment.h, |system| system.constraints(&segment.end()));
+                let values = beyond_rounding(values, &last.gradients, segment);
+                let p = self.state.p;
+                Momenta { p0: p + last.residual(&(p0 - p), &values), p1 }
+            }
+            _ => Momenta { p0, p1 },
+        }
+    }
+
+    /// With W of the last kernel, which is factored already.
+    fn correction(
+        &self,
+        matrix: &L::Matrix,
+        residual: &SVector<L::Scalar, N>,
+    ) -> Result<SVector<L::Scalar, N>, Singular> {
+        match self.last.try_borrow().as_deref() {
+            Ok(Some(last)) => Ok(last.matrix.solve(residual)),
+            _ => matrix.solve(residual),
+        }
+    }
+
+    fn inertia(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N> {
+        self.free.inertia(q, v)
+    }
+
+    /// Terms of L, R and f, and of the reactions: all that cancels where a system hangs at rest.
+    fn cancelling(&self, segment: &Segment<L::Scalar, N>) -> SVector<L::Scalar, N> {
+        let left = self.free.momenta(segment).p0 - self.state.p;
+        self.free.cancelling(segment) + (left + left).abs()
+    }
+
+    fn cause(&self, segment: &Segment<L::Scalar, N>) -> Option<StepError> {
+        self.free.cause(segment)
+    }
+}

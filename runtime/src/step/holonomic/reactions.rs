@@ -1,0 +1,62 @@
+//! The reactions of constraints over a step.
+
+use nalgebra::SVector;
+
+use super::Holonomic;
+use super::equation::OnConstraints;
+use crate::numbers::Scalar;
+use crate::step::{
+    ClosedForm, Discrete, Discretised, Fused, Segment, State, Step, StepError, require_step_size,
+};
+use crate::system::Constrained;
+
+/// Reactions of constraints.
+impl<L, R, const N: usize> Discretised<'_, L, R, N>
+where
+    L: ClosedForm<R, N> + Discrete<R, N>,
+{
+    /// The multipliers λ of the `step` from `state`: the constraints act by the force Gᵀλ at q0, so that λₖ
+    /// is in N or N m where gₖ is a length or an angle.
+    ///
+    /// λ is that of the half step behind q0: the reaction at q0, to first order in h. Of redundant
+    /// constraints it is the one of least norm.
+    ///
+    /// ```
+    /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
+    ///
+    /// struct Pendulum;
+    ///
+    /// #[rayleigh_system]
+    /// impl Pendulum {
+    ///     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+    ///         0.5 * (v[0] * v[0] + v[1] * v[1]) - 9.81 * q[1]
+    ///     }
+    ///     fn constraints(&self, q: [f64; 2]) -> [f64; 1] {
+    ///         [(q[0] * q[0] + q[1] * q[1]).sqrt() - 1.0]
+    ///     }
+    /// }
+    ///
+    /// let by = Pendulum.by(Midpoint, 0.01);
+    /// let hanging = State::from_velocity(&Pendulum, [0.0, -1.0], [0.0, 0.0])?;
+    /// let tension = by.reactions(&hanging, &by.step(&hanging)?)?;
+    /// assert!((tension[0] + 9.81).abs() < 1e-12); // against growing lengths
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StepError::DependentConstraints`] where the constraints do not determine λ.
+    pub fn reactions<const M: usize>(
+        &self,
+        state: &State<L::Scalar, N>,
+        step: &Step<L::Scalar, N>,
+    ) -> Result<SVector<L::Scalar, M>, StepError>
+    where
+        L: Constrained<N, M> + Fused<R, N, Border = Holonomic<M>>,
+    {
+        require_step_size(self.h)?;
+        let segment = Segment { q0: state.q, v: step.velocity, h: self.h };
+        let kappa = OnConstraints::<L, R, N, M>::new(self.system, state).multipliers(&segment);
+        let kappa = kappa.ok_or(StepError::DependentConstraints { constraint: 0 })?;
+        Ok(kappa * (L::Scalar::constant(2.0) / self.h))
+    }
+}

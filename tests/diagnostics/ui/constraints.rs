@@ -1,0 +1,85 @@
+//! Constraints that hold nothing, stand twice or are too many, and what they do not go with.
+
+use dalembert::rayleigh_system;
+
+struct Twice;
+
+#[rayleigh_system]
+impl Twice {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - q[1]
+    }
+    fn constraints(&self, q: [f64; 2]) -> [f64; 2] {
+        let s = q[0] * q[0] + q[1] * q[1];
+        [s - 1.0, s - 1.0]
+    }
+}
+
+struct Nothing {
+    length: f64,
+}
+
+#[rayleigh_system]
+impl Nothing {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - q[1]
+    }
+    fn constraints(&self, _q: [f64; 2]) -> [f64; 1] {
+        [self.length - 1.0]
+    }
+}
+
+struct TooMany;
+
+#[rayleigh_system]
+impl TooMany {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * v[0] * v[0] - q[0]
+    }
+    fn constraints(&self, q: [f64; 1]) -> [f64; 2] {
+        [q[0] - 1.0, q[0] * q[0] - 1.0]
+    }
+}
+
+struct Signature;
+
+#[rayleigh_system]
+impl Signature {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * v[0] * v[0] - q[0]
+    }
+    fn constraints(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        q[0] * v[0]
+    }
+}
+
+struct Asked {
+    length: f64,
+}
+
+#[rayleigh_system(rule = [midpoint, gauss], lanes = midpoint, parameters = [length])]
+impl Asked {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - q[1]
+    }
+    fn constraints(&self, q: [f64; 2]) -> [f64; 1] {
+        [q[0] * q[0] + q[1] * q[1] - self.length * self.length]
+    }
+}
+
+struct ByDuals;
+
+#[rayleigh_system(derivatives = num_dual)]
+impl ByDuals {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - q[1]
+    }
+    fn constraints(&self, q: [f64; 2]) -> [f64; 1] {
+        [q[0] * q[0] + q[1] * q[1] - 1.0]
+    }
+    fn time_scale(&self, q: [f64; 2]) -> f64 {
+        q[0] * q[0] + 1.0
+    }
+}
+
+fn main() {}
