@@ -30,7 +30,7 @@ pub mod parse;
 mod parts;
 mod portable;
 mod renamed;
-mod rules;
+pub mod rules;
 mod scope;
 mod structure;
 mod syntax;

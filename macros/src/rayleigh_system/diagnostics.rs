@@ -9,6 +9,8 @@ use quote::ToTokens;
 use syn::spanned::Spanned;
 use syn::{Error, Ident};
 
+use super::rules::{GAUSS, Rule};
+
 /// The mistakes found, in order of discovery; shown all in one compile.
 #[derive(Default)]
 pub struct Report {
@@ -192,7 +194,11 @@ impl Display for Mistake {
                     _ => f.write_str("remove one"),
                 }
             }
-            Self::UnknownRule(rule) => write!(f, "unknown rule `{rule}`; the rules are `midpoint`, `trapezoidal`, `gauss`, `fitted`, `fitted_trapezoidal` and `one_sided`; one of your own is not listed: `system.by(Quadrature(rule), h)` steps by it"),
+            Self::UnknownRule(rule) => {
+                let [first, second, others @ .., last] = Rule::ALL.map(|rule| rule.entry().word);
+                let others = others.join("`, `");
+                write!(f, "unknown rule `{rule}`; the rules are `{first}`, `{second}`, `{GAUSS}`, `{others}` and `{last}`; one of your own is not listed: `system.by(Quadrature(rule), h)` steps by it")
+            }
             Self::RepeatedRule(rule) => write!(f, "rule `{rule}` is listed twice; remove one"),
             Self::JointRule { rule, lacks } => write!(f, "`rule = {rule}` {lacks}; use `midpoint`, `trapezoidal` or `gauss`"),
             Self::Constrained { lacks } => write!(f, "constraints {lacks}"),

@@ -14,13 +14,14 @@ use std::collections::HashSet;
 use proc_macro2::{Ident, Literal, TokenStream, TokenTree};
 use quote::quote;
 
+use super::rules::Rule;
 use super::syntax::regrouped;
 
 /// The end of a marked name: nothing that says whether it is a type or a constant, and no name of Rust
 /// code.
 pub const MARK: &str = "__0__0__";
 
-/// Names that generated code brings into its scope, the module `dual` among them.
+/// Names that generated code brings into its scope beside those of rules, the module `dual` among them.
 pub const GENERATED: &[&str] = &[
     "ActingForce",
     "CovectorDerivatives",
@@ -30,8 +31,6 @@ pub const GENERATED: &[&str] = &[
     "DisplacementRule",
     "Driven",
     "Dual",
-    "Fitted",
-    "FittedTrapezoidal",
     "Force",
     "ForcedLagrangian",
     "Fused",
@@ -45,10 +44,8 @@ pub const GENERATED: &[&str] = &[
     "Mask",
     "MemberVector",
     "Members",
-    "Midpoint",
     "Momenta",
     "Never",
-    "OneSided",
     "OwnMethods",
     "Parameters",
     "Rayleigh",
@@ -61,7 +58,6 @@ pub const GENERATED: &[&str] = &[
     "Stages",
     "StepKernel",
     "T",
-    "Trapezoidal",
     "Variations",
     "Vector",
     "VectorField",
@@ -179,7 +175,7 @@ pub fn unmarked(text: &str) -> String {
 }
 
 fn is_generated(name: &str) -> bool {
-    GENERATED.contains(&name)
+    GENERATED.contains(&name) || Rule::ALL.iter().any(|rule| rule.entry().name == name)
 }
 
 fn collect(tokens: TokenStream, names: &mut HashSet<String>) {

@@ -108,7 +108,8 @@ pub struct Joint {
 }
 
 impl Rule {
-    const ALL: [Self; 5] =
+    /// In the order in which messages name them.
+    pub const ALL: [Self; 5] =
         [Self::Midpoint, Self::Trapezoidal, Self::Fitted, Self::FittedTrapezoidal, Self::OneSided];
 
     /// The rule of that word in the attribute.

@@ -6,6 +6,7 @@ use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
 
 use crate::rayleigh_system::hygiene::GENERATED;
+use crate::rayleigh_system::rules::Rule;
 use crate::rayleigh_system::{Runtime, differentiable, rayleigh_system};
 
 /// What is imported or defined within the constants that hold generated code.
@@ -107,6 +108,7 @@ fn every_name_that_generated_code_brings_along_is_listed() {
         found.remove(keyword);
     }
     assert!(found.len() > 30, "{found:?}");
-    let listed: BTreeSet<_> = GENERATED.iter().map(|&name| name.to_owned()).collect();
+    let of_rules = Rule::ALL.map(|rule| rule.entry().name);
+    let listed: BTreeSet<_> = GENERATED.iter().chain(&of_rules).map(|&name| name.to_owned()).collect();
     assert_eq!(found, listed);
 }

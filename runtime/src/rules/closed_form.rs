@@ -1,54 +1,52 @@
 //! The discrete objects and the derivatives of steps by rules that have formulas, of every system whose step
 //! [`Fused`] has.
 
-use super::{DisplacementRule, Fitted, FittedTrapezoidal, JointRayleighRule, JointRule, OneSided};
-use crate::numbers::{Derivatives, Hessian};
+use super::DisplacementRule;
+use crate::numbers::Hessian;
 use crate::step::{
-    ClosedForm, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteObjects, DiscreteParameters,
-    DiscreteRayleigh, DiscreteSecondOrder, Fused, LinearizedSegment, Segment, SolvedForVelocity, State,
-    StateBy, StepError, StepHessian,
+    DiscreteDriven, DiscreteObjects, DiscreteParameters, DiscreteSecondOrder, Fused, LinearizedSegment,
+    SolvedForVelocity, State, StateBy, StepError, StepHessian,
 };
-use crate::system::{Driven, Parameters, Rayleigh, SecondOrder};
-use nalgebra::SVector;
+use crate::system::{Driven, Parameters, SecondOrder};
 
-/// [`ClosedForm`] by the `functions` of a rule.
+/// [`ClosedForm`](crate::step::ClosedForm) by the `functions` of a rule.
 macro_rules! closed_form {
     ($(#[$doc:meta])* [$($of:tt)*] $rule:ty, $functions:path $(, $system:ident)?) => {
         $(#[$doc])*
-        impl<$($of)* L, const N: usize> ClosedForm<$rule, N> for L
+        impl<$($of)* L, const N: usize> crate::step::ClosedForm<$rule, N> for L
         where
-            L: Fused<$rule, N> $(+ $system<N>)?,
+            L: crate::step::Fused<$rule, N> $(+ crate::system::$system<N>)?,
         {
-            fn discrete_lagrangian(&self, segment: &Segment<L::Scalar, N>) -> L::Scalar {
+            fn discrete_lagrangian(&self, segment: &crate::step::Segment<L::Scalar, N>) -> L::Scalar {
                 <$rule as $functions>::discrete_lagrangian(self, segment)
             }
 
             fn discrete_lagrangian_derivatives(
                 &self,
-                segment: &Segment<L::Scalar, N>,
-            ) -> Derivatives<L::Scalar, N> {
+                segment: &crate::step::Segment<L::Scalar, N>,
+            ) -> crate::numbers::Derivatives<L::Scalar, N> {
                 <$rule as $functions>::discrete_lagrangian_derivatives(self, segment)
             }
 
-            fn discrete_force(&self, segment: &Segment<L::Scalar, N>) -> DiscreteForce<L::Scalar, N> {
+            fn discrete_force(&self, segment: &crate::step::Segment<L::Scalar, N>) -> crate::step::DiscreteForce<L::Scalar, N> {
                 <$rule as $functions>::discrete_force(self, segment)
             }
 
             fn discrete_force_derivatives(
                 &self,
-                segment: &Segment<L::Scalar, N>,
-            ) -> DiscreteForceDerivatives<L::Scalar, N> {
+                segment: &crate::step::Segment<L::Scalar, N>,
+            ) -> crate::step::DiscreteForceDerivatives<L::Scalar, N> {
                 <$rule as $functions>::discrete_force_derivatives(self, segment)
             }
 
-            fn segment_energy(&self, segment: &Segment<L::Scalar, N>) -> L::Scalar {
+            fn segment_energy(&self, segment: &crate::step::Segment<L::Scalar, N>) -> L::Scalar {
                 <$rule as $functions>::segment_energy(self, segment)
             }
 
             fn at_nodes(
                 &self,
-                segment: &Segment<L::Scalar, N>,
-                visit: &mut dyn FnMut(&Self, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>),
+                segment: &crate::step::Segment<L::Scalar, N>,
+                visit: &mut dyn FnMut(&Self, &nalgebra::SVector<L::Scalar, N>, &nalgebra::SVector<L::Scalar, N>),
             ) {
                 <$rule as $functions>::at_nodes(self, segment, visit);
             }
@@ -60,25 +58,23 @@ closed_form! {
     /// By nodes and weights.
     [R: DisplacementRule + SolvedForVelocity,] R, DisplacementRule
 }
-closed_form! { [] Fitted, JointRule, Rayleigh }
-closed_form! { [] FittedTrapezoidal, JointRule, Rayleigh }
-closed_form! { [] OneSided, JointRule, Rayleigh }
+pub(super) use closed_form;
 
-/// [`DiscreteRayleigh`] by the `functions` of the rule, for N coordinates, or for so many.
+/// [`DiscreteRayleigh`](crate::step::DiscreteRayleigh) by the `functions` of the rule, for N coordinates, or for so many.
 macro_rules! discrete_rayleigh {
     ([$($of:tt)*] $rule:ty, $n:tt, $functions:path) => {
-        impl<$($of)*> DiscreteRayleigh<$rule, $n> for L
+        impl<$($of)*> crate::step::DiscreteRayleigh<$rule, $n> for L
         where
-            L: Fused<$rule, $n> + Rayleigh<$n>,
+            L: crate::step::Fused<$rule, $n> + crate::system::Rayleigh<$n>,
         {
-            fn discrete_rayleigh(&self, segment: &Segment<L::Scalar, $n>) -> L::Scalar {
+            fn discrete_rayleigh(&self, segment: &crate::step::Segment<L::Scalar, $n>) -> L::Scalar {
                 <$rule as $functions>::discrete_rayleigh(self, segment)
             }
 
             fn discrete_rayleigh_derivatives(
                 &self,
-                segment: &Segment<L::Scalar, $n>,
-            ) -> Derivatives<L::Scalar, $n> {
+                segment: &crate::step::Segment<L::Scalar, $n>,
+            ) -> crate::numbers::Derivatives<L::Scalar, $n> {
                 <$rule as $functions>::discrete_rayleigh_derivatives(self, segment)
             }
         }
@@ -86,9 +82,7 @@ macro_rules! discrete_rayleigh {
 }
 
 discrete_rayleigh! { [R: DisplacementRule + SolvedForVelocity, L, const N: usize] R, N, DisplacementRule }
-discrete_rayleigh! { [L] Fitted, 1, JointRayleighRule }
-discrete_rayleigh! { [L, const N: usize] FittedTrapezoidal, N, JointRayleighRule }
-discrete_rayleigh! { [L, const N: usize] OneSided, N, JointRayleighRule }
+pub(super) use discrete_rayleigh;
 
 impl<R, L, const N: usize, const M: usize> DiscreteDriven<R, N, M> for L
 where

@@ -1,10 +1,13 @@
 use nalgebra::SVector;
 
+use super::closed_form::{closed_form, discrete_rayleigh};
 use super::damped_drift::{ByDrift, DampedDrift};
-use super::{JointRayleighRule, JointRule};
+use super::force_work::taken_by_drift;
+use super::{JointRayleighRule, JointRule, SelfAdjoint};
 use crate::numbers::{CovectorDerivatives, Derivatives, Scalar};
 use crate::step::{
-    DiscreteForce, DiscreteForceDerivatives, Momenta, Segment, StepKernel, equation::Equation,
+    DiscreteForce, DiscreteForceDerivatives, EnergyExchange, Flow, ForceWork, Momenta, Segment, State,
+    StepError, StepKernel, equation::Equation,
 };
 use crate::system::{ActingForce, Lagrangian, Rayleigh};
 
@@ -220,5 +223,31 @@ impl JointRayleighRule for Fitted {
         let damping = system.rayleigh_derivatives(&segment.q0, &nalgebra::zero()).d22;
         let value = d.dot(&(damping * d)) * L::Scalar::constant(0.25) + l.value * (lag * segment.h) + thrust;
         force.as_of_rayleigh(value)
+    }
+}
+
+impl SelfAdjoint for Fitted {}
+
+closed_form!([] Fitted, JointRule, Rayleigh);
+discrete_rayleigh!([L] Fitted, 1, JointRayleighRule);
+
+/// The motion under the constant force −∇V(q̄), exactly: what is left of the energy is the quadrature of V
+/// alone.
+impl<L, const N: usize> ForceWork<Fitted, N> for L
+where
+    L: Flow<Fitted, N> + ActingForce<N> + Rayleigh<N>,
+{
+    fn energy_exchange(
+        &self,
+        from: &State<L::Scalar, N>,
+        to: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<EnergyExchange<L::Scalar>, StepError> {
+        let drift = DampedDrift::of(self, &from.q, h);
+        let v = (to.q - from.q) / h;
+        let middle = (from.q + to.q) * L::Scalar::constant(0.5);
+        let force = drift.configuration_force(self, &middle) + drift.thrust;
+        let dissipated = taken_by_drift(self, &drift, (&from.q, &v), &force, h)?;
+        Ok(EnergyExchange { dissipated, work: L::Scalar::constant(0.0) })
     }
 }

@@ -1,12 +1,15 @@
 use nalgebra::SVector;
 
+use super::closed_form::{closed_form, discrete_rayleigh};
 use super::damped_drift::{ByDrift, DampedDrift};
-use super::{DisplacementRule, JointRayleighRule, JointRule, Trapezoidal};
+use super::force_work::taken_by_drift;
+use super::{DisplacementRule, JointRayleighRule, JointRule, SelfAdjoint, Trapezoidal};
 use crate::numbers::{CovectorDerivatives, Derivatives, Scalar};
 use crate::step::{
-    DiscreteForce, DiscreteForceDerivatives, Momenta, Segment, StepKernel, equation::Equation,
+    DiscreteForce, DiscreteForceDerivatives, EnergyExchange, Flow, ForceWork, Momenta, Segment, State,
+    StepError, StepKernel, equation::Equation,
 };
-use crate::system::Rayleigh;
+use crate::system::{ActingForce, Rayleigh};
 
 /// The trapezoidal rule, exponentially fitted to linear damping: explicit, and exact where there is no
 /// potential.
@@ -168,5 +171,28 @@ impl JointRayleighRule for FittedTrapezoidal {
     ) -> Derivatives<L::Scalar, N> {
         let value = Self::discrete_rayleigh(system, segment);
         Self::discrete_force_derivatives(system, segment).as_of_rayleigh(value)
+    }
+}
+
+impl SelfAdjoint for FittedTrapezoidal {}
+
+closed_form!([] FittedTrapezoidal, JointRule, Rayleigh);
+discrete_rayleigh!([L, const N: usize] FittedTrapezoidal, N, JointRayleighRule);
+
+/// The free damped motion between the two kicks, exactly.
+impl<L, const N: usize> ForceWork<FittedTrapezoidal, N> for L
+where
+    L: Flow<FittedTrapezoidal, N> + ActingForce<N> + Rayleigh<N>,
+{
+    fn energy_exchange(
+        &self,
+        from: &State<L::Scalar, N>,
+        to: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<EnergyExchange<L::Scalar>, StepError> {
+        let drift = DampedDrift::of(self, &from.q, h);
+        let v = (to.q - from.q) / h;
+        let dissipated = taken_by_drift(self, &drift, (&from.q, &v), &drift.thrust, h)?;
+        Ok(EnergyExchange { dissipated, work: L::Scalar::constant(0.0) })
     }
 }

@@ -28,6 +28,7 @@ mod tangent;
 
 use nalgebra::SVector;
 
+use super::SelfAdjoint;
 use crate::numbers::{Compensated, Scalar, lanes::splat};
 use crate::step::{
     Discrete, DiscreteObjects, EquationAt, Flow, LinearizedStep, Quantity, Report, Segment, State, Step,
@@ -191,6 +192,8 @@ where
         }
     }
 }
+
+impl<const S: usize> SelfAdjoint for Gauss<S> {}
 
 impl<T, L, const N: usize, const S: usize> Flow<Gauss<S>, N> for L
 where

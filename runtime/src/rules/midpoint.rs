@@ -1,4 +1,5 @@
-use super::{DisplacementRule, Node};
+use super::force_work::by_nodes;
+use super::{DisplacementRule, Node, SelfAdjoint};
 use crate::step::SolvedForVelocity;
 
 /// The midpoint rule, order 2, self-adjoint.
@@ -33,3 +34,7 @@ impl DisplacementRule for Midpoint {
 }
 
 impl SolvedForVelocity for Midpoint {}
+
+impl SelfAdjoint for Midpoint {}
+
+by_nodes!([] Midpoint, of Midpoint);

@@ -1,5 +1,7 @@
 use nalgebra::SVector;
 
+use super::closed_form::{closed_form, discrete_rayleigh};
+use super::force_work::by_nodes;
 use super::{DisplacementRule, JointRayleighRule, JointRule, Midpoint};
 use crate::numbers::{Derivatives, Scalar};
 use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, Segment, SolvedForVelocity, StepKernel};
@@ -111,3 +113,7 @@ impl JointRayleighRule for OneSided {
         Midpoint::discrete_rayleigh_derivatives(system, segment)
     }
 }
+
+closed_form!([] OneSided, JointRule, Rayleigh);
+discrete_rayleigh!([L, const N: usize] OneSided, N, JointRayleighRule);
+by_nodes!([] OneSided, of Midpoint);

@@ -2,6 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::force_work::by_nodes;
 use super::parts::Parts;
 use super::{DisplacementRule, Node, SelfAdjoint};
 use crate::step::{Free, Fused, Momenta, Segment, SolvedForVelocity, StepKernel, VelocityHistory};
@@ -100,3 +101,5 @@ where
         Q::cancelling_terms(self, segment)
     }
 }
+
+by_nodes!([Q: DisplacementRule,] Quadrature<Q>, of Q);

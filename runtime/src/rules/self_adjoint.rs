@@ -1,7 +1,5 @@
 //! The marker of rules that a step back undoes.
 
-use super::{Fitted, FittedTrapezoidal, Gauss, Midpoint, Trapezoidal};
-
 /// A self-adjoint rule: its step of −h undoes its step of h, Φ₋ₕ = Φₕ⁻¹. Its order is even, and
 /// [`Composition`](crate::Composition)s raise it.
 ///
@@ -18,9 +16,3 @@ use super::{Fitted, FittedTrapezoidal, Gauss, Midpoint, Trapezoidal};
     note = "where the step of −h undoes the step of h, as with nodes symmetric about ½, state it: `impl dalembert::rules::SelfAdjoint for {Self} {{}}`"
 )]
 pub trait SelfAdjoint {}
-
-impl SelfAdjoint for Midpoint {}
-impl SelfAdjoint for Trapezoidal {}
-impl SelfAdjoint for Fitted {}
-impl SelfAdjoint for FittedTrapezoidal {}
-impl<const S: usize> SelfAdjoint for Gauss<S> {}

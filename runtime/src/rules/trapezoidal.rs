@@ -1,4 +1,5 @@
-use super::{DisplacementRule, Node};
+use super::force_work::by_nodes;
+use super::{DisplacementRule, Node, SelfAdjoint};
 use crate::step::SolvedForVelocity;
 
 /// The trapezoidal rule, order 2, self-adjoint.
@@ -29,3 +30,7 @@ impl DisplacementRule for Trapezoidal {
 }
 
 impl SolvedForVelocity for Trapezoidal {}
+
+impl SelfAdjoint for Trapezoidal {}
+
+by_nodes!([] Trapezoidal, of Trapezoidal);
