@@ -32,6 +32,7 @@ cargo xtask TASK
 
 tidy                    formatting, line widths, circles of modules, prose, public names, links: in seconds
 quick [PATH…]           the tests that belong to edited paths, or to those that git status names
+places                  how many files a new rule, function or option touches, by ARCHITECTURE.md
 bless                   writes the snapshots of expansions and the messages of diagnostics anew
 page c                  follows the chapter of docs/ on C, by gcc and by clang
 page fmu                … on functional mock-up units, and holds the unit against FMPy
@@ -74,6 +75,7 @@ fn run() -> Result<()> {
         [] | ["help", ..] => print!("{HELP}"),
         ["tidy"] => tidy::run()?,
         ["quick", ref paths @ ..] => quick::run(paths)?,
+        ["places"] => tidy::places::print()?,
         ["bless"] => bless::run()?,
         ["page", "c"] => page::c::run()?,
         ["page", "fmu"] => page::fmu::run()?,

@@ -10,6 +10,7 @@ mod kept;
 mod links;
 mod pages;
 mod paths;
+pub mod places;
 mod prose;
 mod root;
 mod widths;
@@ -25,7 +26,7 @@ use crate::project;
 /// A check: what it found, each on a line of its own.
 type Check = fn(&Shell) -> Result<Vec<String>>;
 
-const CHECKS: [(&str, Check); 10] = [
+const CHECKS: [(&str, Check); 11] = [
     ("line widths of comments", widths::check),
     ("circles of modules", circles::check),
     ("floors of the runtime", |_| floors::check()),
@@ -35,6 +36,7 @@ const CHECKS: [(&str, Check); 10] = [
     ("links of pages", links::check),
     ("tests that pages name", |_| corrections_page::check()),
     ("figures and dependencies in the README", |_| pages::check()),
+    ("places to touch", |_| places::check()),
     ("the table of tests", |shell| crate::quick::check(shell)),
 ];
 
