@@ -60,7 +60,8 @@ closed_form! {
 }
 pub(super) use closed_form;
 
-/// [`DiscreteRayleigh`](crate::step::DiscreteRayleigh) by the `functions` of the rule, for N coordinates, or for so many.
+/// [`DiscreteRayleigh`](crate::step::DiscreteRayleigh) by the `functions` of the rule, for N coordinates, or for
+/// so many.
 macro_rules! discrete_rayleigh {
     ([$($of:tt)*] $rule:ty, $n:tt, $functions:path) => {
         impl<$($of)*> crate::step::DiscreteRayleigh<$rule, $n> for L
