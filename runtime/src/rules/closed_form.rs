@@ -28,7 +28,10 @@ macro_rules! closed_form {
                 <$rule as $functions>::discrete_lagrangian_derivatives(self, segment)
             }
 
-            fn discrete_force(&self, segment: &crate::step::Segment<L::Scalar, N>) -> crate::step::DiscreteForce<L::Scalar, N> {
+            fn discrete_force(
+                &self,
+                segment: &crate::step::Segment<L::Scalar, N>,
+            ) -> crate::step::DiscreteForce<L::Scalar, N> {
                 <$rule as $functions>::discrete_force(self, segment)
             }
 
@@ -60,8 +63,8 @@ closed_form! {
 }
 pub(super) use closed_form;
 
-/// [`DiscreteRayleigh`](crate::step::DiscreteRayleigh) by the `functions` of the rule, for N coordinates, or for
-/// so many.
+/// [`DiscreteRayleigh`](crate::step::DiscreteRayleigh) by the `functions` of the rule, for N coordinates, or
+/// for so many.
 macro_rules! discrete_rayleigh {
     ([$($of:tt)*] $rule:ty, $n:tt, $functions:path) => {
         impl<$($of)*> crate::step::DiscreteRayleigh<$rule, $n> for L
