@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::numbers::{NewtonMatrix, Scalar, Singular};
+use crate::numbers::{NewtonMatrix, Scalar};
 use crate::step::cause::cause_of;
 use crate::step::{Discrete, Fused, Momenta, Segment, StepError, StepKernel};
 use crate::system::derivatives_apart;
@@ -29,13 +29,12 @@ pub(crate) trait StepEquation<S: Scalar, const N: usize> {
     /// p0 and p1.
     fn momenta(&self, segment: &Segment<S, N>) -> Momenta<S, N>;
 
-    /// The correction of v̄ that the `matrix` of the last kernel makes of a residual.
-    ///
-    /// # Errors
-    /// [`Singular`].
+    /// The correction of v̄ that the matrix of the last kernel makes of a residual, where the equation has that
+    /// matrix factored already.
     #[inline]
-    fn correction(&self, matrix: &Self::Matrix, residual: &SVector<S, N>) -> Result<SVector<S, N>, Singular> {
-        matrix.solve(residual)
+    fn correction(&self, residual: &SVector<S, N>) -> Option<SVector<S, N>> {
+        let _ = residual;
+        None
     }
 
     /// The mass that the velocity has in p0: the metric that tells which of two velocities is longer.

@@ -34,7 +34,12 @@ impl<S: Scalar, const N: usize> State<S, N> {
         StepError::require_finite(&l.d2, Quantity::Derivatives)
             .map_err(|error| explained_by_lagrangian(system, &q, &v, error))?;
         require_regular(&l.d22).or_else(|error| require_regular_nearby(system, &q, &v, error))?;
-        system.violation(&q, &v).map_or(Ok(Self { q, p: l.d2 }), |violation| Err(violation.into()))
+        if L::IS_CONSTRAINED
+            && let Some(violation) = system.violation(&q, &v)
+        {
+            return Err(violation.into());
+        }
+        Ok(Self { q, p: l.d2 })
     }
 
     /// The velocity v with ∂L/∂v(q, v) = p, by Newton's method (one iteration where L is quadratic in v).

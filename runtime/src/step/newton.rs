@@ -14,7 +14,7 @@
 
 use nalgebra::SVector;
 
-use crate::numbers::Scalar;
+use crate::numbers::{NewtonMatrix, Scalar};
 pub(crate) use crate::step::equation::Equation;
 use crate::step::equation::StepEquation;
 use crate::step::{Momenta, Report, Segment, State, StepError};
@@ -127,7 +127,13 @@ pub(crate) fn quick<S: Scalar, const N: usize>(
     for iterations in 0..QUICK_ITERATIONS {
         let kernel = equation.kernel(&segment);
         let residual = kernel.p0 - p;
-        let Ok(correction) = equation.correction(&kernel.matrix, &residual) else { break };
+        let correction = match equation.correction(&residual) {
+            Some(correction) => correction,
+            None => match kernel.matrix.solve(&residual) {
+                Ok(correction) => correction,
+                Err(_) => break,
+            },
+        };
         let next = segment.v - correction;
         let close = if kind == Equation::Linear {
             true

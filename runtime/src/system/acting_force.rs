@@ -35,9 +35,6 @@ pub trait ActingForce<const N: usize>: Lagrangian<N> {
     /// no stage asks.
     const IS_TIMED: bool = false;
 
-    /// Whether constraints hold the motion: then rules that know none do not compile for the system.
-    const IS_CONSTRAINED: bool = false;
-
     /// R with ∂R/∂q and ∂R/∂v; 0 where there is none.
     #[inline]
     fn dissipation(

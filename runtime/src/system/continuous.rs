@@ -25,6 +25,10 @@ pub trait Lagrangian<const N: usize> {
     /// The structure of the system, as known when it is compiled.
     const STRUCTURE: Structure = Structure::UNKNOWN;
 
+    /// Whether constraints hold the motion ([`Constrained`](crate::system::Constrained)): then rules that know
+    /// none do not compile for the system.
+    const IS_CONSTRAINED: bool = false;
+
     /// L(q, v).
     fn lagrangian(&self, q: &SVector<Self::Scalar, N>, v: &SVector<Self::Scalar, N>) -> Self::Scalar;
 

@@ -54,11 +54,13 @@ pub fn constrained(system: &System<'_>, functions: TokenStream) -> TokenStream {
     }
 }
 
-/// `fn violation`, of a system with constraints and of its view.
+/// `fn violation`, of a system with constraints and of its view, and that there are some.
 pub fn violation(system: &System<'_>) -> Option<TokenStream> {
     system.constraints.as_ref()?;
     let (n, m) = (system.degrees.times(1), system.constraint_count());
     Some(quote! {
+        const IS_CONSTRAINED: bool = true;
+
         #[cold]
         fn violation(
             &self,

@@ -236,18 +236,12 @@ pub fn acting_force(system: &System<'_>, cancelling_terms: Option<TokenStream>) 
             const IS_TIMED: bool = true;
         )
     });
-    let constrained = system.constraints.is_some().then(|| {
-        quote!(
-            const IS_CONSTRAINED: bool = true;
-        )
-    });
     quote! {
         #[automatically_derived]
         impl ActingForce<#n> for #subject {
             #rayleigh
             #force
             #timed
-            #constrained
             #cancelling_terms
         }
     }

@@ -7,7 +7,7 @@ use nalgebra::{SMatrix, SVector};
 use super::columns::by_columns;
 use super::complement::Complement;
 use super::nearest::{dependent, tangent};
-use crate::numbers::{Factored, NewtonMatrix, Scalar, Singular};
+use crate::numbers::{Factored, NewtonMatrix, Scalar};
 use crate::step::equation::{OfRule, StepEquation};
 use crate::step::{ClosedForm, Discrete, Momenta, Segment, State, Step, StepError, StepKernel};
 use crate::system::{Constrained, Violation, sizes, violation};
@@ -189,16 +189,9 @@ where
         }
     }
 
-    /// With W of the last kernel, which is factored already.
-    fn correction(
-        &self,
-        matrix: &L::Matrix,
-        residual: &SVector<L::Scalar, N>,
-    ) -> Result<SVector<L::Scalar, N>, Singular> {
-        match self.last.try_borrow().as_deref() {
-            Ok(Some(last)) => Ok(last.matrix.solve(residual)),
-            _ => matrix.solve(residual),
-        }
+    fn correction(&self, residual: &SVector<L::Scalar, N>) -> Option<SVector<L::Scalar, N>> {
+        let last = self.last.try_borrow().ok()?;
+        last.as_ref().map(|last| last.matrix.solve(residual))
     }
 
     fn inertia(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N> {

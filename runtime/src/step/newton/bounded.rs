@@ -28,7 +28,8 @@ pub(crate) fn bounded<S: Scalar, const N: usize>(
     for iteration in 0..bound.max(1) {
         let kernel = equation.kernel(&at(&v));
         let residual = kernel.p0 - p;
-        let correction = match equation.correction(&kernel.matrix, &residual) {
+        let known = equation.correction(&residual);
+        let correction = match known.map_or_else(|| kernel.matrix.solve(&residual), Ok) {
             Ok(correction) => correction,
             // What was reached before stands.
             Err(_) if best.is_some() => break,
