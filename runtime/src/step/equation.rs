@@ -29,8 +29,8 @@ pub(crate) trait StepEquation<S: Scalar, const N: usize> {
     /// p0 and p1.
     fn momenta(&self, segment: &Segment<S, N>) -> Momenta<S, N>;
 
-    /// The correction of v̄ that the matrix of the last kernel makes of a residual, where the equation has that
-    /// matrix factored already.
+    /// The correction of v̄ that the matrix of the last kernel makes of a residual, where the equation has
+    /// that matrix factored already.
     #[inline]
     fn correction(&self, residual: &SVector<S, N>) -> Option<SVector<S, N>> {
         let _ = residual;

@@ -25,8 +25,8 @@ pub trait Lagrangian<const N: usize> {
     /// The structure of the system, as known when it is compiled.
     const STRUCTURE: Structure = Structure::UNKNOWN;
 
-    /// Whether constraints hold the motion ([`Constrained`](crate::system::Constrained)): then rules that know
-    /// none do not compile for the system.
+    /// Whether constraints hold the motion ([`Constrained`](crate::system::Constrained)): then rules that
+    /// know none do not compile for the system.
     const IS_CONSTRAINED: bool = false;
 
     /// L(q, v).
