@@ -63,5 +63,10 @@ where
 }
 
 fn each<S: Scalar, const N: usize, const K: usize>(by: &StateBy<S, N, K>) -> [Column<S, N>; K] {
-    core::array::from_fn(|k| [by.q.column(k).into_owned(), by.p.column(k).into_owned()])
+    // Of arrays: an index that nothing shows to be within bounds would bring a panic into the step.
+    let mut columns = [[SVector::zeros(); 2]; K];
+    for ((column, q), p) in columns.iter_mut().zip(&by.q.data.0).zip(&by.p.data.0) {
+        *column = [SVector::from(*q), SVector::from(*p)];
+    }
+    columns
 }
