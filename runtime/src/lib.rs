@@ -208,7 +208,7 @@ mod attributes {
 ///
 /// A = ∂(q1, p1)/∂(q0, p0) is that of [`linearized_step`](Discretised::linearized_step). Constraints go with
 /// inputs and times of the other functions; not yet with Gauss rules, lanes, `to_error`, `time_scale`,
-/// `parameters` and `step_derivatives`, nor in the bindings to C, FMI and Python.
+/// `parameters` and `step_derivatives`, the checkers of the theory, nor in the bindings to C, FMI and Python.
 ///
 /// # Rules
 ///

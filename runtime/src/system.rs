@@ -35,8 +35,8 @@ pub use crate::numbers::{
     Lanes, Mask, Scalar, Variations,
 };
 pub use acting_force::ActingForce;
-pub(crate) use constrained::sizes;
 pub use constrained::{Constrained, violation};
+pub(crate) use constrained::{off, sizes};
 pub use continuous::{Force, Lagrangian, Rayleigh};
 pub(crate) use continuous::{derivatives_apart, is_timed};
 pub use described::Described;

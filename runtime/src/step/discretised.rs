@@ -424,6 +424,9 @@ where
     where
         L: ClosedForm<R, N>,
     {
+        const {
+            assert!(!L::IS_CONSTRAINED, "on constraints the residual is a reaction: ask `reactions`");
+        }
         let (before, after) = (self.between(q0, q1), self.between(q1, q2));
         self.system.momenta(&before).p1 - self.system.later(self.h, |system| system.momenta(&after).p0)
     }

@@ -46,6 +46,10 @@ pub(crate) trait StepEquation<S: Scalar, const N: usize> {
         nalgebra::zero()
     }
 
+    /// From here on values are compared with one another: kernel and momenta have to be functions of the
+    /// segment alone.
+    fn compare(&self) {}
+
     /// The kind of the equation.
     fn kind(&self) -> Equation
     where

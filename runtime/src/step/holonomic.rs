@@ -51,7 +51,7 @@ where
         h: L::Scalar,
         guess: Option<&SVector<L::Scalar, N>>,
     ) -> Result<Step<L::Scalar, N>, StepError> {
-        let equation = OnConstraints::<L, R, N, M>::new(system, state);
+        let equation = OnConstraints::<L, R, N, M>::new(system, state)?;
         let step = step_by(system, &equation, state, h, guess).map_err(|error| equation.explained(error))?;
         equation.on_constraints(step, h)
     }
@@ -63,7 +63,7 @@ where
         guess: Option<&SVector<L::Scalar, N>>,
         iterations: u32,
     ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
-        let equation = OnConstraints::<L, R, N, M>::new(system, state);
+        let equation = OnConstraints::<L, R, N, M>::new(system, state)?;
         let BoundedStep { step, converged } = step_within_by(system, &equation, state, h, guess, iterations)
             .map_err(|error| equation.explained(error))?;
         Ok(BoundedStep { step: equation.on_constraints(step, h)?, converged })

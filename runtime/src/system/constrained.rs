@@ -56,13 +56,8 @@ where
 {
     let (values, gradients) = system.constraint_gradients(q);
     let rates = system.constraint_rates(q);
-    // A constraint of a distance has terms of the size of its gradient, wherever the origin is.
-    let sizes_of_values = sizes(&gradients, &(q.abs() + SVector::repeat(L::Scalar::constant(1.0))));
-    let rounded = values.as_slice().iter().zip(sizes_of_values.as_slice());
-    for (constraint, (value, size)) in rounded.enumerate() {
-        if exceeds(*value, *size) {
-            return Some(Violation::Off { constraint, value: value.widen() });
-        }
+    if let Some((constraint, value)) = off(&values, &gradients, q) {
+        return Some(Violation::Off { constraint, value: value.widen() });
     }
     let of_velocities = gradients * v + rates;
     let sizes_of_rates = sizes(&gradients, v) + rates.abs();
@@ -73,6 +68,18 @@ where
         }
     }
     None
+}
+
+/// The first constraint whose value at q rounding does not explain, with the value.
+pub(crate) fn off<S: Scalar, const N: usize, const M: usize>(
+    values: &SVector<S, M>,
+    gradients: &SMatrix<S, M, N>,
+    q: &SVector<S, N>,
+) -> Option<(usize, S)> {
+    // A constraint of a distance has terms of the size of its gradient, wherever the origin is.
+    let sizes = sizes(gradients, &(q.abs() + SVector::repeat(S::one())));
+    let mut rounded = values.as_slice().iter().zip(sizes.as_slice()).enumerate();
+    rounded.find(|(_, (value, size))| exceeds(**value, **size)).map(|(k, (value, _))| (k, *value))
 }
 
 /// Whether rounding of terms of this size does not explain the amount.

@@ -94,11 +94,17 @@ where
 {
     /// The objects of L with the force f_L = −∂R/∂v + f, as far as the system has R and f.
     pub fn new(system: &'a L) -> Self {
+        const {
+            assert!(!L::IS_CONSTRAINED, "exact discrete objects are those of systems without constraints");
+        }
         Self { system, is_forced: true, stop: Stop::never() }
     }
 
     /// The objects of L alone, whatever else the system has.
     pub fn unforced(system: &'a L) -> Self {
+        const {
+            assert!(!L::IS_CONSTRAINED, "exact discrete objects are those of systems without constraints");
+        }
         Self { system, is_forced: false, stop: Stop::never() }
     }
 

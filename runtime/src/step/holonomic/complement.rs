@@ -7,15 +7,16 @@ use crate::numbers::{Factored, NewtonMatrix, Scalar};
 /// The Schur complement S = G(q1) W⁻¹ G(q0)ᵀ of M constraints, made ready to solve with.
 ///
 /// Where constraints are redundant, S is singular and the equations are consistent all the same: then
-/// S + ε is factored, and solutions are refined with S, which leads to the one of least norm.
+/// S + ε is factored, and solutions are refined with S, which leads to the one of least norm. Constraints are
+/// scaled by their own entries for that, so that neither their units nor the masses matter.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Complement<S: Scalar, const M: usize> {
     factored: <SMatrix<S, M, M> as NewtonMatrix<S, M>>::Factored,
-    /// S itself, where S + ε was factored.
-    refined_by: Option<SMatrix<S, M, M>>,
+    /// S itself and the scales of the constraints, where S + ε was factored.
+    refined_by: Option<(SMatrix<S, M, M>, SVector<S, M>)>,
 }
 
-/// ε beside the largest diagonal entry of S, in units of the square root of the rounding unit.
+/// ε beside a diagonal of 1, in units of the square root of the rounding unit.
 const SHARE: f64 = 16.0;
 
 /// Refinements: each takes the error by what S + ε adds down by ε/(σ + ε), with σ the least singular value
@@ -23,19 +24,21 @@ const SHARE: f64 = 16.0;
 const REFINEMENTS: u32 = 4;
 
 impl<S: Scalar, const M: usize> Complement<S, M> {
-    /// Of the matrix; nothing if an entry is not finite, or if it is 0.
+    /// Of the matrix; nothing if an entry is not finite.
     pub(super) fn of(matrix: &SMatrix<S, M, M>) -> Option<Self> {
         if let Some(factored) = NewtonMatrix::factored(matrix) {
             return Some(Self { factored, refined_by: None });
         }
-        let mut largest = S::zero();
-        for (k, column) in matrix.data.0.iter().enumerate() {
-            largest = largest.max(column.get(k).map_or(largest, |entry| entry.abs()));
+        let scales = scales(matrix);
+        let mut scaled = *matrix;
+        for (column, of_column) in scaled.data.0.iter_mut().zip(scales.as_slice()) {
+            for (entry, of_row) in column.iter_mut().zip(scales.as_slice()) {
+                *entry = *entry * *of_row * *of_column;
+            }
         }
-        let epsilon = largest * S::EPSILON.sqrt() * S::constant(SHARE);
-        let regular = matrix + SMatrix::identity() * epsilon;
+        let regular = scaled + SMatrix::identity() * (S::EPSILON.sqrt() * S::constant(SHARE));
         let factored = NewtonMatrix::factored(&regular)?;
-        Some(Self { factored, refined_by: Some(*matrix) })
+        Some(Self { factored, refined_by: Some((scaled, scales)) })
     }
 
     /// Whether the constraints are redundant where this was formed, or singular.
@@ -45,12 +48,22 @@ impl<S: Scalar, const M: usize> Complement<S, M> {
 
     /// The solution of S x = `right`.
     pub(super) fn solve(&self, right: &SVector<S, M>) -> SVector<S, M> {
-        let mut x = self.factored.solve(right);
-        if let Some(matrix) = &self.refined_by {
-            for _ in 0..REFINEMENTS {
-                x += self.factored.solve(&(right - matrix * x));
-            }
+        let Some((scaled, scales)) = &self.refined_by else { return self.factored.solve(right) };
+        let right = right.component_mul(scales);
+        let mut x = self.factored.solve(&right);
+        for _ in 0..REFINEMENTS {
+            x += self.factored.solve(&(right - scaled * x));
         }
-        x
+        x.component_mul(scales)
     }
+}
+
+/// 1/√|Sₖₖ|, by which the diagonal becomes ±1; 1 where it is 0.
+fn scales<S: Scalar, const M: usize>(matrix: &SMatrix<S, M, M>) -> SVector<S, M> {
+    let mut scales: SVector<S, M> = nalgebra::zero();
+    for (k, (scale, column)) in scales.as_mut_slice().iter_mut().zip(&matrix.data.0).enumerate() {
+        let size = column.get(k).map_or(S::zero(), |entry| entry.abs());
+        *scale = if size > S::zero() { S::one() / size.sqrt() } else { S::one() };
+    }
+    scales
 }

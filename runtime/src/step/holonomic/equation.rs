@@ -1,16 +1,16 @@
 //! The equation of a step on constraints, for v̄ alone.
 
-use core::cell::RefCell;
+use core::cell::{Cell, RefCell};
 
 use nalgebra::{SMatrix, SVector};
 
 use super::columns::by_columns;
 use super::complement::Complement;
-use super::nearest::{dependent, tangent};
+use super::nearest::{dependent, require_on, tangent};
 use crate::numbers::{Factored, NewtonMatrix, Scalar};
 use crate::step::equation::{OfRule, StepEquation};
 use crate::step::{ClosedForm, Discrete, Momenta, Segment, State, Step, StepError, StepKernel};
-use crate::system::{Constrained, Violation, sizes, violation};
+use crate::system::{Constrained, sizes};
 
 /// Roundings of the terms of a constraint below which its value counts as 0.
 const ROUNDINGS: f64 = 4.0;
@@ -25,6 +25,8 @@ where
     state: &'a State<L::Scalar, N>,
     /// G(q0)ᵀ, the directions of the reactions.
     directions: SMatrix<L::Scalar, N, M>,
+    /// Whether momenta take W and S of the last kernel: of the quick method, to which the equation is all.
+    is_frozen: Cell<bool>,
     /// At the v̄ at which the kernel was asked for last.
     last: RefCell<Option<Bordered<L::Scalar, L::Matrix, N, M>>>,
 }
@@ -68,9 +70,13 @@ impl<'a, L, R, const N: usize, const M: usize> OnConstraints<'a, L, R, N, M>
 where
     L: ClosedForm<R, N> + Discrete<R, N> + Constrained<N, M>,
 {
-    pub(super) fn new(system: &'a L, state: &'a State<L::Scalar, N>) -> Self {
-        let directions = system.constraint_gradients(&state.q).1.transpose();
-        Self { system, free: OfRule::new(system), state, directions, last: RefCell::new(None) }
+    /// # Errors
+    /// [`StepError::OffConstraint`] of a state that is off a constraint.
+    pub(super) fn new(system: &'a L, state: &'a State<L::Scalar, N>) -> Result<Self, StepError> {
+        let (values, gradients) = system.constraint_gradients(&state.q);
+        require_on(&values, &gradients, &state.q)?;
+        let (free, directions, last) = (OfRule::new(system), gradients.transpose(), RefCell::new(None));
+        Ok(Self { system, free, state, directions, is_frozen: Cell::new(true), last })
     }
 
     /// W and S on the segment, where neither is singular beyond redundancy.
@@ -99,6 +105,17 @@ where
         (beyond_rounding(values, &gradients, segment), gradients)
     }
 
+    /// p + F with W and S of this segment, where p0 has this value.
+    #[cold]
+    #[inline(never)]
+    fn compared(&self, segment: &Segment<L::Scalar, N>, p0: &SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
+        let (values, gradients) = self.at_end(segment);
+        match self.bordered(segment, &self.free.kernel(segment).matrix, gradients) {
+            Some(bordered) => self.state.p + bordered.residual(&(p0 - self.state.p), &values),
+            None => *p0,
+        }
+    }
+
     /// κ = (h/2)λ on the segment of a step.
     pub(super) fn multipliers(&self, segment: &Segment<L::Scalar, N>) -> Option<SVector<L::Scalar, M>> {
         let kernel = self.free.kernel(segment);
@@ -113,25 +130,30 @@ where
         step: Step<L::Scalar, N>,
         h: L::Scalar,
     ) -> Result<Step<L::Scalar, N>, StepError> {
-        let is_deficient = |last: &Option<Bordered<_, _, N, M>>| {
-            last.as_ref().is_some_and(|last| last.complement.is_deficient())
-        };
-        if self.last.try_borrow().is_ok_and(|last| is_deficient(&last)) {
-            self.require_on(&step, h)?;
-        }
-        let state = self.system.later(h, |system| tangent::<L, N, M>(system, &step.state))?;
+        let reached = self.system.later(h, |system| tangent::<L, N, M>(system, &step.state));
+        let state = reached.map_err(|error| self.lost(error, &step))?;
         state.require_reached()?;
         Ok(Step { state, ..step })
     }
 
-    /// Fails where q1 is off a constraint: those that seemed redundant contradict one another.
+    /// The error of a step whose end is off a constraint: constraints that seemed redundant contradict one
+    /// another, or the equation has no root in reach.
     #[cold]
     #[inline(never)]
-    fn require_on(&self, step: &Step<L::Scalar, N>, h: L::Scalar) -> Result<(), StepError> {
-        self.system.later(h, |system| match violation(system, &step.state.q, &nalgebra::zero()) {
-            Some(Violation::Off { constraint, .. }) => Err(StepError::DependentConstraints { constraint }),
-            _ => Ok(()),
-        })
+    fn lost(&self, error: StepError, step: &Step<L::Scalar, N>) -> StepError {
+        let is_deficient = self
+            .last
+            .try_borrow()
+            .is_ok_and(|last| last.as_ref().is_some_and(|last| last.complement.is_deficient()));
+        match error {
+            StepError::OffConstraint { constraint, .. } if is_deficient => {
+                StepError::DependentConstraints { constraint }
+            }
+            StepError::OffConstraint { value, .. } => {
+                StepError::NoRealSolution { iteration: step.report.iterations, residual: value.abs() }
+            }
+            other => other,
+        }
     }
 
     /// The error of a step, by the constraints where these are its cause.
@@ -175,9 +197,16 @@ where
         kernel
     }
 
-    /// F with W and S of the last kernel: to rounding that of the segment at a root.
+    fn compare(&self) {
+        self.is_frozen.set(false);
+    }
+
+    /// F with W and S of the last kernel, whose roots are those of F; where values are compared, F itself.
     fn momenta(&self, segment: &Segment<L::Scalar, N>) -> Momenta<L::Scalar, N> {
         let Momenta { p0, p1 } = self.free.momenta(segment);
+        if !self.is_frozen.get() {
+            return Momenta { p0: self.compared(segment, &p0), p1 };
+        }
         match self.last.try_borrow().as_deref() {
             Ok(Some(last)) => {
                 let values = self.system.later(segment.h, |system| system.constraints(&segment.end()));

@@ -35,7 +35,7 @@ where
     let segment = Segment { q0: state.q, v: step.velocity, h };
     let k = system.on(&segment)?.legendre_derivatives()?;
     let singular = StepError::DependentConstraints { constraint: 0 };
-    let kappa = OnConstraints::<L, R, N, M>::new(system, state).multipliers(&segment).ok_or(singular)?;
+    let kappa = OnConstraints::<L, R, N, M>::new(system, state)?.multipliers(&segment).ok_or(singular)?;
     let onto = onto_constraints::<L, N, M>(system, state)?;
     let (raw, by_p) = before_momentum(system, &segment, &k, &kappa)?;
     // From here on at the end, `h` later.

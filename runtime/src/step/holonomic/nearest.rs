@@ -8,7 +8,7 @@ use super::inertia::Inertia;
 use crate::numbers::{Scalar, linear};
 use crate::step::newton::{estimated_floor, held_against};
 use crate::step::{State, StepError};
-use crate::system::{Constrained, Quantity, Violation, sizes, violation};
+use crate::system::{Constrained, Quantity, off, sizes};
 
 /// Corrections of a configuration or a velocity.
 const MOST: u32 = 24;
@@ -41,9 +41,9 @@ impl<S: Scalar, const N: usize> State<S, N> {
     /// ```
     ///
     /// # Errors
-    /// [`StepError::DependentConstraints`] where the gradients of the constraints do not tell where to go,
-    /// [`StepError::OffConstraint`] where no state in reach is on them; those of
-    /// [`State::from_velocity`](crate::State::from_velocity) but for the constraints.
+    /// [`StepError::DependentConstraints`] where the gradients of the constraints do not tell where to go, or
+    /// no state in reach is on all of them; those of [`State::from_velocity`](crate::State::from_velocity)
+    /// but for the constraints.
     pub fn nearest<L, const M: usize>(
         system: &L,
         q: impl Into<SVector<S, N>>,
@@ -65,13 +65,12 @@ impl<S: Scalar, const N: usize> State<S, N> {
                 break;
             }
         }
-        if let Some(Violation::Off { constraint, value }) =
-            violation::<L, N, M>(system, &q, &nalgebra::zero())
-        {
-            return Err(StepError::OffConstraint { constraint, value });
-        }
         let p = system.lagrangian_gradient(&q, &v).d2;
-        tangent(system, &Self { q, p })
+        tangent(system, &Self { q, p }).map_err(|error| match error {
+            // No state in reach is on all of them.
+            StepError::OffConstraint { constraint, .. } => StepError::DependentConstraints { constraint },
+            other => other,
+        })
     }
 }
 
@@ -107,6 +106,18 @@ impl<S: Scalar, const N: usize, const M: usize> AtPoint<S, N, M> {
     }
 }
 
+/// Fails where q is off a constraint.
+pub(super) fn require_on<S: Scalar, const N: usize, const M: usize>(
+    values: &SVector<S, M>,
+    gradients: &SMatrix<S, M, N>,
+    q: &SVector<S, N>,
+) -> Result<(), StepError> {
+    match off(values, gradients, q) {
+        None => Ok(()),
+        Some((constraint, value)) => Err(StepError::OffConstraint { constraint, value: value.widen() }),
+    }
+}
+
 /// The state with its momentum on N: p − Gᵀμ with G·v(q, p − Gᵀμ) + ∂g/∂t = 0.
 pub(super) fn tangent<L, const N: usize, const M: usize>(
     system: &L,
@@ -121,6 +132,7 @@ where
     let rates = system.constraint_rates(&q);
     // Where L is quadratic in v, M is the mass everywhere.
     let at = AtPoint::<_, N, M>::of(system, &q, Inertia::of(system, &q, &rest, &at_rest.d22)?)?;
+    require_on(&at.values, &at.gradients, &q)?;
     let mut v = at.inertia.solve(&(p - at_rest.d2));
     let mu = at.complement.solve(&(at.gradients * v + rates));
     let moved = p - at.gradients.transpose() * mu;
@@ -165,7 +177,8 @@ where
     L: Constrained<N, M>,
 {
     let inertia = Inertia::at(system, q, &nalgebra::zero()).ok()?;
-    let at = AtPoint::<_, N, M>::of(system, q, inertia).ok()?;
-    let complement: SMatrix<L::Scalar, M, M> = at.gradients * at.answers;
+    let (_, gradients) = system.constraint_gradients(q);
+    let answers = by_columns(&gradients.transpose(), |direction| inertia.solve(direction));
+    let complement: SMatrix<L::Scalar, M, M> = gradients * answers;
     linear::require_regular(&complement).err().map(|singular| singular.column)
 }

@@ -44,7 +44,8 @@ where
     /// ```
     ///
     /// # Errors
-    /// [`StepError::DependentConstraints`] where the constraints do not determine λ.
+    /// [`StepError::DependentConstraints`] where the constraints do not determine λ,
+    /// [`StepError::OffConstraint`] of a state that is off one.
     pub fn reactions<const M: usize>(
         &self,
         state: &State<L::Scalar, N>,
@@ -55,7 +56,7 @@ where
     {
         require_step_size(self.h)?;
         let segment = Segment { q0: state.q, v: step.velocity, h: self.h };
-        let kappa = OnConstraints::<L, R, N, M>::new(self.system, state).multipliers(&segment);
+        let kappa = OnConstraints::<L, R, N, M>::new(self.system, state)?.multipliers(&segment);
         let kappa = kappa.ok_or(StepError::DependentConstraints { constraint: 0 })?;
         Ok(kappa * (L::Scalar::constant(2.0) / self.h))
     }

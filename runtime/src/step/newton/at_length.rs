@@ -39,6 +39,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> StepProblem<'_, S, M, N> 
         way: Way<'_, S>,
         v: &SVector<S, N>,
     ) -> Result<Solution<S, N>, NotSolved<S, N>> {
+        self.equation.compare();
         let mut buffer = room::<S, N>();
         let mut evaluate = Evaluations { of: self, present: M::zero(), before: M::zero(), lost: None };
         let momenta = Momenta { p0: nalgebra::zero(), p1: nalgebra::zero() };
