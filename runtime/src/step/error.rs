@@ -91,7 +91,7 @@ pub enum StepError {
     LeavesConstraint {
         /// The constraint k, from 0.
         constraint: usize,
-        /// ∂gₖ/∂q·v + ∂gₖ/∂t.
+        /// ∂gₖ/∂q·v.
         rate: f64,
     },
     /// The gradient of a constraint depends on those of the others and the constraints are not redundant: the

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! p0 = −D1 L_d − f_d⁻ − (h/2) G(q0)ᵀλ        g(q1) = 0
-//! p1 = D2 L_d + f_d⁺ + G(q1)ᵀμ               μ: G(q1)·v(q1, p1) + ∂g/∂t = 0
+//! p1 = D2 L_d + f_d⁺ + G(q1)ᵀμ               μ: G(q1)·v(q1, p1) = 0
 //! ```
 //!
 //! with L_d and f_d of the rule, and G = ∂g/∂q. The pair (L_d, R_d), restricted to N×N with N = g⁻¹(0), is a

@@ -6,8 +6,6 @@ use crate::numbers::Scalar;
 use crate::system::{Lagrangian, Violation};
 
 /// Holonomic constraints gₖ(q) = 0, k = 1 … M, that hold a system on N = g⁻¹(0).
-///
-/// A function of time, g(q, t), is one of a view, at the time of the view.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no constraints as it stands here",
     label = "no constraints",
@@ -30,13 +28,6 @@ pub trait Constrained<const N: usize, const M: usize>: Lagrangian<N> {
         q: &SVector<Self::Scalar, N>,
         lambda: &SVector<Self::Scalar, M>,
     ) -> SMatrix<Self::Scalar, N, N>;
-
-    /// ∂g/∂t; 0 where no constraint takes the time.
-    #[inline]
-    fn constraint_rates(&self, q: &SVector<Self::Scalar, N>) -> SVector<Self::Scalar, M> {
-        let _ = q;
-        nalgebra::zero()
-    }
 }
 
 /// Roundings of the terms of gₖ and of its rate that a point on the constraints may be off, given as rounded
@@ -55,13 +46,11 @@ where
     L: Constrained<N, M> + ?Sized,
 {
     let (values, gradients) = system.constraint_gradients(q);
-    let rates = system.constraint_rates(q);
     if let Some((constraint, value)) = off(&values, &gradients, q) {
         return Some(Violation::Off { constraint, value: value.widen() });
     }
-    let of_velocities = gradients * v + rates;
-    let sizes_of_rates = sizes(&gradients, v) + rates.abs();
-    let rounded = of_velocities.as_slice().iter().zip(sizes_of_rates.as_slice());
+    let (rates, sizes) = (gradients * v, sizes(&gradients, v));
+    let rounded = rates.as_slice().iter().zip(sizes.as_slice());
     for (constraint, (rate, size)) in rounded.enumerate() {
         if exceeds(*rate, *size) {
             return Some(Violation::Leaving { constraint, rate: rate.widen() });

@@ -14,7 +14,7 @@ pub enum Violation {
     Leaving {
         /// The constraint k, from 0.
         constraint: usize,
-        /// ∂gₖ/∂q·v + ∂gₖ/∂t.
+        /// ∂gₖ/∂q·v.
         rate: f64,
     },
 }

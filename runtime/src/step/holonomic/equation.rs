@@ -79,7 +79,24 @@ where
         Ok(Self { system, free, state, directions, is_frozen: Cell::new(true), last })
     }
 
-    /// W and S on the segment, where neither is singular beyond redundancy.
+    /// p0 and W on the segment without the constraints, c = g(q1)/h, 0 where rounding explains it, and W and
+    /// S made ready, where neither is singular beyond redundancy.
+    #[expect(clippy::type_complexity, reason = "three values that belong together here alone")]
+    fn evaluated(
+        &self,
+        segment: &Segment<L::Scalar, N>,
+    ) -> (
+        StepKernel<L::Scalar, N, L::Matrix>,
+        SVector<L::Scalar, M>,
+        Option<Bordered<L::Scalar, L::Matrix, N, M>>,
+    ) {
+        let kernel = self.free.kernel(segment);
+        let (values, gradients) = self.system.constraint_gradients(&segment.end());
+        let values = beyond_rounding(values, &gradients, segment);
+        let bordered = self.bordered(segment, &kernel.matrix, gradients);
+        (kernel, values, bordered)
+    }
+
     fn bordered(
         &self,
         segment: &Segment<L::Scalar, N>,
@@ -98,19 +115,12 @@ where
         Some(Bordered { matrix, directions, gradients, complement })
     }
 
-    /// c = g(q1)/h, 0 where rounding explains it, and G(q1).
-    fn at_end(&self, segment: &Segment<L::Scalar, N>) -> (SVector<L::Scalar, M>, SMatrix<L::Scalar, M, N>) {
-        let (values, gradients) =
-            self.system.later(segment.h, |system| system.constraint_gradients(&segment.end()));
-        (beyond_rounding(values, &gradients, segment), gradients)
-    }
-
     /// p + F with W and S of this segment, where p0 has this value.
     #[cold]
     #[inline(never)]
     fn compared(&self, segment: &Segment<L::Scalar, N>, p0: &SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
-        let (values, gradients) = self.at_end(segment);
-        match self.bordered(segment, &self.free.kernel(segment).matrix, gradients) {
+        let (_, values, bordered) = self.evaluated(segment);
+        match bordered {
             Some(bordered) => self.state.p + bordered.residual(&(p0 - self.state.p), &values),
             None => *p0,
         }
@@ -118,13 +128,11 @@ where
 
     /// κ = (h/2)λ on the segment of a step.
     pub(super) fn multipliers(&self, segment: &Segment<L::Scalar, N>) -> Option<SVector<L::Scalar, M>> {
-        let kernel = self.free.kernel(segment);
-        let (values, gradients) = self.at_end(segment);
-        let bordered = self.bordered(segment, &kernel.matrix, gradients)?;
-        Some(bordered.multipliers(&(kernel.p0 - self.state.p), &values))
+        let (kernel, values, bordered) = self.evaluated(segment);
+        Some(bordered?.multipliers(&(kernel.p0 - self.state.p), &values))
     }
 
-    /// The step with its momentum on N: G(q1)·v(q1, p1) + ∂g/∂t = 0.
+    /// The step with its momentum on N: G(q1)·v(q1, p1) = 0.
     pub(super) fn on_constraints(
         &self,
         step: Step<L::Scalar, N>,
@@ -179,9 +187,7 @@ where
     type Matrix = L::Matrix;
 
     fn kernel(&self, segment: &Segment<L::Scalar, N>) -> StepKernel<L::Scalar, N, L::Matrix> {
-        let StepKernel { p0, matrix } = self.free.kernel(segment);
-        let (values, gradients) = self.at_end(segment);
-        let bordered = self.bordered(segment, &matrix, gradients);
+        let (StepKernel { p0, matrix }, values, bordered) = self.evaluated(segment);
         let kernel = match &bordered {
             Some(bordered) => {
                 let p = self.state.p;
@@ -209,7 +215,7 @@ where
         }
         match self.last.try_borrow().as_deref() {
             Ok(Some(last)) => {
-                let values = self.system.later(segment.h, |system| system.constraints(&segment.end()));
+                let values = self.system.constraints(&segment.end());
                 let values = beyond_rounding(values, &last.gradients, segment);
                 let p = self.state.p;
                 Momenta { p0: p + last.residual(&(p0 - p), &values), p1 }

@@ -6,7 +6,7 @@
 //!
 //! ```text
 //! dp0 = (K00 − κ·∂²g(q0)) dq0 + K01 dq1 − G(q0)ᵀdκ        G(q1) dq1 = 0
-//! dp1 = K10 dq0 + K11 dq1 + μ·∂²g(q1) dq1 + G(q1)ᵀdμ      d(G(q1)·v(q1, p1) + ∂g/∂t) = 0
+//! dp1 = K10 dq0 + K11 dq1 + μ·∂²g(q1) dq1 + G(q1)ᵀdμ      d(G(q1)·v(q1, p1)) = 0
 //! ```
 
 use nalgebra::{SMatrix, SVector};
@@ -76,7 +76,7 @@ where
 {
     let free = invert(&k.p0_by_q1)?;
     let (_, first) = system.constraint_gradients(&segment.q0);
-    let (_, last) = system.later(segment.h, |system| system.constraint_gradients(&segment.end()));
+    let (_, last) = system.constraint_gradients(&segment.end());
     let answers = free * first.transpose();
     let singular = StepError::DependentConstraints { constraint: 0 };
     let complement = Complement::of(&(last * answers)).ok_or(singular)?;

@@ -118,7 +118,7 @@ pub(super) fn require_on<S: Scalar, const N: usize, const M: usize>(
     }
 }
 
-/// The state with its momentum on N: p − Gᵀμ with G·v(q, p − Gᵀμ) + ∂g/∂t = 0.
+/// The state with its momentum on N: p − Gᵀμ with G·v(q, p − Gᵀμ) = 0.
 pub(super) fn tangent<L, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
@@ -129,12 +129,11 @@ where
     let State { q, mut p } = *state;
     let rest = nalgebra::zero();
     let at_rest = system.lagrangian_derivatives(&q, &rest);
-    let rates = system.constraint_rates(&q);
     // Where L is quadratic in v, M is the mass everywhere.
     let at = AtPoint::<_, N, M>::of(system, &q, Inertia::of(system, &q, &rest, &at_rest.d22)?)?;
     require_on(&at.values, &at.gradients, &q)?;
     let mut v = at.inertia.solve(&(p - at_rest.d2));
-    let mu = at.complement.solve(&(at.gradients * v + rates));
+    let mu = at.complement.solve(&(at.gradients * v));
     let moved = p - at.gradients.transpose() * mu;
     v -= at.answers * mu;
     let residual = system.lagrangian_gradient(&q, &v).d2 - moved;
@@ -144,8 +143,8 @@ where
     v = state.velocity(system)?;
     for _ in 0..MOST {
         let at = AtPoint::<_, N, M>::of(system, &q, Inertia::at(system, &q, &v)?)?;
-        let left = at.gradients * v + rates;
-        if is_held(&left, &at.gradients, &v, &rates) {
+        let left = at.gradients * v;
+        if is_held(&left, &at.gradients, &v) {
             break;
         }
         p -= at.gradients.transpose() * at.complement.solve(&left);
@@ -154,15 +153,14 @@ where
     Ok(State { q, p })
 }
 
-/// Whether rounding explains what is `left` of G·v + ∂g/∂t.
+/// Whether rounding explains what is `left` of G·v.
 fn is_held<S: Scalar, const N: usize, const M: usize>(
     left: &SVector<S, M>,
     gradients: &SMatrix<S, M, N>,
     v: &SVector<S, N>,
-    rates: &SVector<S, M>,
 ) -> bool {
     let unit = S::EPSILON * S::constant(ROUNDINGS);
-    let most = (sizes(gradients, v) + rates.abs()) * unit;
+    let most = sizes(gradients, v) * unit;
     left.as_slice().iter().zip(most.as_slice()).all(|(left, most)| left.abs() <= *most)
 }
 
