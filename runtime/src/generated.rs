@@ -22,14 +22,14 @@ pub use crate::run::{
     DriftMemory, Explicit, ExplicitDriftMemory, ExplicitInLanes, ExplicitMemory, KeptMatrix, VelocityHistory,
 };
 #[doc(no_inline)]
-pub use crate::step::{DiscreteInLanes, Free, Holonomic, Momenta, Segment, StepKernel};
+pub use crate::step::{Constraints, DiscreteInLanes, Free, Momenta, Segment, StepKernel};
 #[doc(no_inline)]
 pub use crate::system::{
-    ActingForce, Constrained, CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian,
-    ForcedLagrangianInLanes, Function, Gathered, GeneratedDiffers, GradientBy, Input, Lagrangian,
-    NewtonStructure, NoDerivative, OfSlice, Operation, Parameters, Place, Plain, PlainFields, Quantity,
-    Rayleigh, Refusal, ScalarField, SecondOrder, SliceMethods, Stages, Structure, TimeScale, VectorField,
-    Violation, Written, violation,
+    ActingForce, Constrained, ConstrainedParameters, ConstraintsBy, CyclicCoordinate, Damping, Driven,
+    Engine, Force, ForcedLagrangian, ForcedLagrangianInLanes, Function, Gathered, GeneratedDiffers,
+    GradientBy, Input, Lagrangian, NewtonStructure, NoDerivative, OfSlice, Operation, Parameters, Place,
+    Plain, PlainFields, Quantity, Rayleigh, Refusal, ScalarField, SecondOrder, SliceMethods, Stages,
+    Structure, TimeScale, VectorField, Violation, Written, first_rows, last_rows, violation,
 };
 
 /// Implements [`Described`](crate::system::Described), and makes a macro of the system's name, which hands

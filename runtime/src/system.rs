@@ -35,7 +35,7 @@ pub use crate::numbers::{
     Lanes, Mask, Scalar, Variations,
 };
 pub use acting_force::ActingForce;
-pub use constrained::{Constrained, violation};
+pub use constrained::{Constrained, ConstrainedParameters, ConstraintsBy, first_rows, last_rows, violation};
 pub(crate) use constrained::{off, sizes};
 pub use continuous::{Force, Lagrangian, Rayleigh};
 pub(crate) use continuous::{derivatives_apart, is_timed};

@@ -35,21 +35,23 @@ fn block<'a>(source: &'a Source, options: &Options, report: &mut Report) -> Opti
     };
     let shape = signature::shape(&lagrangian.sig, source.name(), report)?;
     let (mut bodies, mut takes) = (Vec::new(), [None; Part::ALL.len()]);
-    let (mut input, mut constraints) = (None, None);
+    let (mut input, mut constraints) = (None, [None, None]);
     for (part, takes) in Part::ALL.into_iter().zip(&mut takes) {
         let Some(function) = named(part.name()) else { continue };
         let before = report.count();
         let stated = signature::stated(&function.sig, part, &shape, report);
         *takes = Some(stated.takes);
         input = input.or(stated.input);
-        constraints = constraints.or(stated.result);
+        if let Some(kind) = Part::CONSTRAINTS.iter().position(|&of| of == part) {
+            constraints[kind] = stated.result;
+        }
         let has_right_signature = report.count() == before;
         bodies.push(Body { function: function.clone(), has_right_signature });
     }
     let degrees = |length| Degrees { length, system: source.name().clone() };
     let system = System {
         input: input.map(degrees),
-        constraints: constraints.map(degrees),
+        constraints: constraints.map(|length| length.map(degrees)),
         ..of_shape(source, source.name(), shape, options, (takes, bodies))
     };
     let generated =
@@ -191,7 +193,7 @@ fn of_shape<'a>(
         bodies,
         takes,
         input: None,
-        constraints: None,
+        constraints: [None, None],
         parameters: options.parameters.clone(),
         second: options.second,
         lanes: options.lanes.clone(),

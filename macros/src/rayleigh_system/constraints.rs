@@ -2,16 +2,18 @@
 
 use proc_macro2::TokenStream;
 use quote::ToTokens;
-use syn::{Expr, Ident, Stmt};
+use syn::{Expr, Stmt};
 
+use super::derived::Derived;
 use super::diagnostics::{Mistake, Report};
+use super::graph::{Graph, Node, Operation};
 use super::lower::Lowered;
 use super::model::{Engine, System};
 use super::parts::Part;
 
 /// Reports what the attribute asks for and steps on constraints do not have.
 pub fn check(system: &System<'_>, report: &mut Report) {
-    let Some(name) = name_of(system) else { return };
+    let Some(name) = Part::CONSTRAINTS.into_iter().find_map(|part| name_of(system, part)) else { return };
     let mut refuse = |lacks| report.at(&name, Mistake::Constrained { lacks });
     if system.rules.gauss {
         refuse("are held by `midpoint` and `trapezoidal`, and by compositions of these; leave `gauss` out");
@@ -27,42 +29,68 @@ pub fn check(system: &System<'_>, report: &mut Report) {
     if system.lanes.words().next().is_some() {
         refuse("are not held in lanes; leave `lanes` out");
     }
-    if system.second || !system.parameters.is_empty() {
-        refuse(
-            "have no derivatives of a step but those by its state; leave `parameters` and `step_derivatives` out",
-        );
+    if system.second {
+        refuse("have no second derivatives of a step; leave `step_derivatives` out");
     }
     if system.has(Part::TimeScale) {
         refuse("are not held over steps that follow a time scale; remove `time_scale`");
     }
 }
 
-/// Reports constraints that are more than the coordinates, equal to another, or do not hold q.
+/// Reports constraints that are more than the coordinates, equal to another, or do not hold q or v.
 pub fn check_lowered(system: &System<'_>, lowered: &Lowered, report: &mut Report) {
-    let (Some(name), Some(constraints)) = (name_of(system), &lowered.constraints) else { return };
-    if constraints.is_empty() || constraints.len() > lowered.n {
-        report.at(&name, Mistake::ConstraintCount { constraints: constraints.len(), coordinates: lowered.n });
-        return;
-    }
-    for (index, &constraint) in constraints.iter().enumerate() {
-        let at = tokens_of(system, index);
-        if let Some(other) = constraints[..index].iter().position(|&before| before == constraint) {
-            report.at(&at, Mistake::EqualConstraints { other });
-        } else if !lowered.graph.depends(constraint) {
-            report.at(&at, Mistake::ConstraintWithoutCoordinate);
+    let graph = &lowered.graph;
+    let count: usize = lowered.constraints.iter().map(Vec::len).sum();
+    for (part, constraints) in Part::CONSTRAINTS.into_iter().zip(&lowered.constraints) {
+        let Some(name) = name_of(system, part) else { continue };
+        if constraints.is_empty() || count > lowered.n {
+            let coordinates = lowered.n;
+            let constraints = if constraints.is_empty() { 0 } else { count };
+            report.at(&name, Mistake::ConstraintCount { constraints, coordinates });
+            return;
+        }
+        for (index, &constraint) in constraints.iter().enumerate() {
+            let at = tokens_of(system, part, index);
+            if let Some(other) = constraints[..index].iter().position(|&before| before == constraint) {
+                report.at(&at, Mistake::EqualConstraints { other });
+            } else if part == Part::Constraints && !reads(graph, constraint, is_coordinate) {
+                report.at(&at, Mistake::ConstraintWithoutCoordinate);
+            } else if part == Part::VelocityConstraints && !reads(graph, constraint, is_velocity) {
+                report.at(&at, Mistake::ConstraintWithoutVelocity);
+            }
         }
     }
 }
 
-fn name_of(system: &System<'_>) -> Option<Ident> {
-    let function = system.source.functions().find(|function| function.sig.ident == Part::Constraints.name());
+/// Reports velocity constraints that are not linear in v.
+pub fn check_derived(system: &System<'_>, derived: &Derived, report: &mut Report) {
+    for &index in &derived.constraints.not_linear {
+        let at = tokens_of(system, Part::VelocityConstraints, index);
+        report.at(&at, Mistake::NotLinearInVelocity);
+    }
+}
+
+fn is_coordinate(operation: Operation) -> bool {
+    matches!(operation, Operation::Coordinate(_))
+}
+
+fn is_velocity(operation: Operation) -> bool {
+    matches!(operation, Operation::Velocity(_))
+}
+
+fn reads(graph: &Graph, root: Node, is_read: fn(Operation) -> bool) -> bool {
+    graph.reachable([root]).into_iter().any(|node| is_read(graph.operation(node)))
+}
+
+fn name_of(system: &System<'_>, part: Part) -> Option<syn::Ident> {
+    let function = system.source.functions().find(|function| function.sig.ident == part.name());
     function.map(|function| function.sig.ident.clone())
 }
 
 /// The expression of a constraint, where the function ends in an array of them; otherwise its name.
-fn tokens_of(system: &System<'_>, index: usize) -> TokenStream {
+fn tokens_of(system: &System<'_>, part: Part, index: usize) -> TokenStream {
     let mut functions = system.source.functions();
-    let Some(function) = functions.find(|function| function.sig.ident == Part::Constraints.name()) else {
+    let Some(function) = functions.find(|function| function.sig.ident == part.name()) else {
         return system.name.to_token_stream();
     };
     match function.block.stmts.last() {

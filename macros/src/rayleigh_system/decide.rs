@@ -43,7 +43,7 @@ pub fn engine(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Dec
 /// system: dual numbers have none of them.
 fn asks_for_code(system: &System<'_>) -> bool {
     let is_asked = !system.parameters.is_empty() || system.lanes.words().next().is_some();
-    is_asked || system.fused.is_some() || system.constraints.is_some()
+    is_asked || system.fused.is_some() || system.is_constrained()
 }
 
 /// `derivatives = auto`: written out where they can be.
@@ -98,6 +98,7 @@ fn expansion(system: &System<'_>, report: &mut Report) -> Result<Decision, Refus
     let system = if report.is_empty() { system } else { &without_parameters };
     let derived = derived::functions(system, lowered)?;
     lanes::check_derived(system, &derived, report);
+    constraints::check_derived(system, &derived, report);
     if !report.is_empty() {
         return Ok(Decision::Refused);
     }

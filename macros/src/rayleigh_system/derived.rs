@@ -17,6 +17,8 @@ mod sensitivity;
 mod stages;
 mod trapezoidal;
 
+use std::collections::BTreeMap;
+
 use proc_macro2::TokenStream;
 use quote::format_ident;
 use syn::Ident;
@@ -43,6 +45,7 @@ pub struct Derived {
     pub findings: Findings,
     /// Functions of the traits, but for those of steps.
     pub functions: Vec<Routine>,
+    pub constraints: constraints::Findings,
     /// Operations without a derivative: of the system and of its view.
     pub places: [Vec<Places>; 2],
     /// The equations at a stage of Gauss rules, or why they are left to the runtime.
@@ -103,9 +106,9 @@ pub fn functions(system: &System<'_>, lowered: Lowered) -> Result<Derived, Refus
     }
     functions.extend(force.map(|components| deriving.force(components)).transpose()?);
     functions.extend(time_scale.map(|root| deriving.time_scale(root)).transpose()?);
-    if let Some(constraints) = &constraints {
-        functions.extend(deriving.constraints(constraints)?);
-    }
+    let held = system.is_constrained().then(|| deriving.constraints(&constraints)).transpose()?;
+    let (of_constraints, held) = held.unwrap_or_default();
+    functions.extend(of_constraints);
     let driven = force.filter(|_| system.input.is_some());
     functions.extend(driven.map(|components| deriving.by_input(components)).transpose()?);
     functions.extend(deriving.all_by_parameters()?);
@@ -130,6 +133,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered) -> Result<Derived, Refus
         m,
         findings,
         functions,
+        constraints: held,
         places,
         stages,
         kernels,

@@ -89,6 +89,7 @@ fn engine(system: &System<'_>, refusal: Option<Refusal>) -> EngineFunctions {
         force: system.has(Part::Force).then(|| derivatives::of_force(system)),
         time_scale: system.has(Part::TimeScale).then(|| derivatives::of_time_scale(system)),
         constraints: None,
+        constraints_by_parameters: None,
         by_input: system.input.as_ref().map(|input| derivatives::by_input(system, input)),
         cancelling_terms: system
             .rules

@@ -352,10 +352,10 @@ impl Graph {
         ((a == half && is_two(b)) || (b == half && is_two(a))).then_some(whole)
     }
 
-    /// The time.
-    pub fn time(&mut self) -> Node {
+    /// The time, and whether derivatives are taken by it.
+    pub fn time(&mut self, is_variable: bool) -> Node {
         let time = format_ident!("{TIME}");
-        self.written(quote!(#time))
+        self.placed(quote!(#time), false, is_variable)
     }
 
     /// Whether the operation is the time.

@@ -67,8 +67,8 @@ pub struct Lowered {
     pub force: Option<Vec<Node>>,
     /// σ, the time scale.
     pub time_scale: Option<Node>,
-    /// The constraints, one by one.
-    pub constraints: Option<Vec<Node>>,
+    /// The constraints and the velocity constraints, one by one.
+    pub constraints: [Vec<Node>; 2],
     /// The functions of the block that were run.
     pub functions: Vec<Ident>,
     /// Methods taken for those of slices, each called on an array of so many numbers: rustc has to agree.
@@ -123,8 +123,9 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
     let u = system.input.as_ref().map(|_| {
         Value::Sequence((0..m).map(|i| Value::Real(lowering.graph.node(Operation::Input(i)))).collect())
     });
-    // A local of the generated function.
-    let t = system.is_timed().then(|| Value::Real(lowering.graph.time()));
+    // A local of the generated function. Constraints that move are differentiated by it.
+    let is_variable = Part::CONSTRAINTS.into_iter().any(|part| system.takes_time(part));
+    let t = system.is_timed().then(|| Value::Real(lowering.graph.time(is_variable)));
 
     let mut values = [const { None }; Part::ALL.len()];
     match system.source {
@@ -166,7 +167,7 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
         let components = components.into_iter().map(|component| lowering.scalar(at, component));
         *roots = Some(components.collect::<Result<Vec<_>>>()?);
     }
-    let [lagrangian, rayleigh, force, time_scale, constraints] = roots;
+    let [lagrangian, rayleigh, force, time_scale, constraints, velocity_constraints] = roots;
     let number = |roots: Option<Vec<Node>>| roots.and_then(|roots| roots.first().copied());
     let Some(lagrangian) = number(lagrangian) else {
         return refuse(at, "there is no Lagrangian");
@@ -182,7 +183,7 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
         rayleigh: number(rayleigh),
         force,
         time_scale: number(time_scale),
-        constraints,
+        constraints: [constraints, velocity_constraints].map(Option::unwrap_or_default),
         functions,
         of_arrays,
         bindings,

@@ -113,8 +113,8 @@ pub struct System<'a> {
     pub takes: [Option<Arguments>; Part::ALL.len()],
     /// The number of entries of the input u, if there is one.
     pub input: Option<Degrees>,
-    /// The number of constraints, if there are any.
-    pub constraints: Option<Degrees>,
+    /// The numbers of constraints and of velocity constraints, where there are any.
+    pub constraints: [Option<Degrees>; 2],
     /// Fields that the step is differentiated by, as listed: `m`, `c[0]`.
     pub parameters: Vec<Expr>,
     /// Whether the step is differentiated twice.
@@ -182,9 +182,21 @@ impl System<'_> {
         self.input.as_ref().map_or_else(|| quote!(0), |input| input.times(1))
     }
 
-    /// The number of constraints as a const generic argument, 0 where there are none.
+    /// Whether constraints hold it.
+    pub fn is_constrained(&self) -> bool {
+        self.constraints.iter().any(Option::is_some)
+    }
+
+    /// The number of all constraints as a const generic argument, 0 where there are none.
     pub fn constraint_count(&self) -> TokenStream {
-        self.constraints.as_ref().map_or_else(|| quote!(0), |count| count.times(1))
+        match &self.constraints {
+            [None, None] => quote!(0),
+            [Some(count), None] | [None, Some(count)] => count.times(1),
+            [Some(first), Some(second)] => {
+                let (first, second) = (first.times(1), second.times(1));
+                quote!({ #first + #second })
+            }
+        }
     }
 
     /// P as a const generic argument.
@@ -209,7 +221,7 @@ impl System<'_> {
             Part::Lagrangian => is_timed(part),
             Part::Rayleigh => is_timed(Part::Lagrangian) || is_timed(part),
             Part::Force | Part::TimeScale => self.has_view(),
-            Part::Constraints => false,
+            Part::Constraints | Part::VelocityConstraints => Part::CONSTRAINTS.into_iter().any(is_timed),
         };
         if needs_view { Home::View } else { Home::System }
     }

@@ -9,6 +9,7 @@ pub enum Part {
     Force,
     TimeScale,
     Constraints,
+    VelocityConstraints,
 }
 
 /// A choice of the arguments that there are, which stand in this order.
@@ -23,6 +24,7 @@ pub struct Arguments {
 impl Arguments {
     const Q: Self = Self { q: true, v: false, u: false, t: false };
     const V: Self = Self { q: false, v: true, ..Self::Q };
+    const Q_T: Self = Self { t: true, ..Self::Q };
     const Q_V: Self = Self { v: true, ..Self::Q };
     const Q_V_T: Self = Self { t: true, ..Self::Q_V };
     const Q_V_U_T: Self = Self { u: true, ..Self::Q_V_T };
@@ -66,8 +68,17 @@ pub struct Entry {
 
 impl Part {
     /// In the order in which their signatures are checked and their bodies lowered.
-    pub const ALL: [Self; 5] =
-        [Self::Lagrangian, Self::Rayleigh, Self::Force, Self::TimeScale, Self::Constraints];
+    pub const ALL: [Self; 6] = [
+        Self::Lagrangian,
+        Self::Rayleigh,
+        Self::Force,
+        Self::TimeScale,
+        Self::Constraints,
+        Self::VelocityConstraints,
+    ];
+
+    /// Constraints, in the order of their rows.
+    pub const CONSTRAINTS: [Self; 2] = [Self::Constraints, Self::VelocityConstraints];
 
     /// The name of the function.
     pub fn name(self) -> &'static str {
@@ -112,9 +123,17 @@ impl Part {
             Self::Constraints => Entry {
                 name: "constraints",
                 takes: Arguments::Q,
-                may_take: Arguments::Q,
+                may_take: Arguments::Q_T,
                 returns: Returns::Numbers,
-                parameters: "`(&self, q: [f64; N])` alone: constraints hold the configuration",
+                parameters: "`(&self, q: [f64; N])`, and `t: f64` after it if they depend on time",
+                is_term: false,
+            },
+            Self::VelocityConstraints => Entry {
+                name: "velocity_constraints",
+                takes: Arguments::Q_V,
+                may_take: Arguments::Q_V_T,
+                returns: Returns::Numbers,
+                parameters: "`(&self, q: [f64; N], v: [f64; N])`, and `t: f64` after them if they depend on time",
                 is_term: false,
             },
         }

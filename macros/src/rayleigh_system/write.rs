@@ -34,8 +34,10 @@ pub struct EngineFunctions {
     pub force: Option<TokenStream>,
     /// σ and its gradient.
     pub time_scale: Option<TokenStream>,
-    /// The gradients and the curvature of the constraints.
-    pub constraints: Option<TokenStream>,
+    /// The derivatives of the constraints, and whether these move by themselves.
+    pub constraints: Option<(TokenStream, bool)>,
+    /// Those by the parameters.
+    pub constraints_by_parameters: Option<TokenStream>,
     /// The derivative of f by the input.
     pub by_input: Option<TokenStream>,
     /// Sizes of the terms that cancel in the equations of motion, where some can.
@@ -82,7 +84,11 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
     let rayleigh = functions.rayleigh.map(|derivatives| continuous::rayleigh(system, derivatives));
     let force = functions.force.map(|derivatives| continuous::force(system, derivatives));
     let time_scale = functions.time_scale.map(|function| continuous::time_scale(system, function));
-    let constrained = functions.constraints.map(|functions| constrained::constrained(system, functions));
+    let constrained = functions
+        .constraints
+        .map(|(functions, is_prescribed)| constrained::constrained(system, functions, is_prescribed));
+    let constrained_by_parameters =
+        functions.constraints_by_parameters.map(|function| constrained::by_parameters(system, function));
     let acting = continuous::acting_force(system, functions.cancelling_terms);
     let forced = system.rules.gauss.then(|| continuous::forced_lagrangian(system, functions.stages));
     let driven = functions.by_input.and_then(|by_input| on_request::driven(system, by_input));
@@ -110,6 +116,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
             #force
             #time_scale
             #constrained
+            #constrained_by_parameters
             #acting
             #forced
             #driven

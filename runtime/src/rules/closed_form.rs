@@ -4,8 +4,8 @@
 use super::DisplacementRule;
 use crate::numbers::Hessian;
 use crate::step::{
-    DiscreteDriven, DiscreteObjects, DiscreteParameters, DiscreteSecondOrder, Fused, LinearizedSegment,
-    SolvedForVelocity, State, StateBy, StepError, StepHessian,
+    BorderParameters, DiscreteDriven, DiscreteObjects, DiscreteParameters, DiscreteSecondOrder, Fused,
+    LinearizedSegment, SolvedForVelocity, State, StateBy, StepError, StepHessian,
 };
 use crate::system::{Driven, Parameters, SecondOrder};
 
@@ -102,7 +102,7 @@ where
 impl<R, L, const N: usize, const P: usize> DiscreteParameters<R, N, P> for L
 where
     R: DisplacementRule + SolvedForVelocity,
-    L: Fused<R, N> + Parameters<N, P>,
+    L: Fused<R, N, Border: BorderParameters<L, R, N, P>> + Parameters<N, P>,
 {
     fn by_parameters(at: &LinearizedSegment<'_, L, R, N>) -> Result<StateBy<L::Scalar, N, P>, StepError> {
         let (system, segment) = (at.on.system, at.on.segment());
@@ -113,7 +113,7 @@ where
         if L::HAS_FORCE {
             by = by + R::force_by_parameters(system, segment);
         }
-        at.answer(&by)
+        at.answer_parameters(&by)
     }
 }
 

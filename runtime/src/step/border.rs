@@ -1,15 +1,20 @@
 //! The border of a step's equation: what holds the motion beside L, R and f.
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
-use crate::step::{BoundedStep, PhaseMatrix, State, Step, StepError};
+use crate::step::{
+    BoundedStep, LegendreDerivatives, MomentaBy, PhaseMatrix, Segment, State, StateBy, Step, StepError,
+};
 use crate::system::Lagrangian;
 
 /// The border of the equation of a step by rule `R`: what holds the motion beside L, R and f, and how the
 /// step is solved with it. It alone knows how many multipliers there are.
 ///
-/// A system names it: [`Free`](crate::step::Free), or [`Holonomic`](crate::step::Holonomic) constraints.
+/// A system names it: [`Free`](crate::step::Free), or [`Constraints`](crate::step::Constraints).
 pub trait Border<L: Lagrangian<N> + ?Sized, R, const N: usize> {
+    /// The border's share of the equations at a step, linearised and factored.
+    type Linearized;
+
     /// [`Flow::step`](crate::step::Flow::step).
     ///
     /// # Errors
@@ -33,14 +38,54 @@ pub trait Border<L: Lagrangian<N> + ?Sized, R, const N: usize> {
         iterations: u32,
     ) -> Result<BoundedStep<L::Scalar, N>, StepError>;
 
-    /// A = ∂(q1, p1)/∂(q0, p0) of the `step` from `state`.
+    /// ∂q1/∂p0 at fixed q0, and the border's share of the equations on the `segment` of a step, where its
+    /// momenta have the derivatives `k`.
     ///
     /// # Errors
-    /// [`StepError::SingularNewtonMatrix`] where it has none, [`StepError::NonFinite`].
-    fn step_matrix(
+    /// [`StepError::SingularNewtonMatrix`] where the step has no derivative, [`StepError::NonFinite`].
+    #[expect(clippy::type_complexity, reason = "a matrix, and what the border knows")]
+    fn linearized(
         system: &L,
-        state: &State<L::Scalar, N>,
-        step: &Step<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
+        k: &LegendreDerivatives<L::Scalar, N>,
+    ) -> Result<(SMatrix<L::Scalar, N, N>, Self::Linearized), StepError>;
+
+    /// A = ∂(q1, p1)/∂(q0, p0).
+    ///
+    /// # Errors
+    /// [`StepError::NonFinite`].
+    fn by_state(
+        k: &LegendreDerivatives<L::Scalar, N>,
+        q_by_p: &SMatrix<L::Scalar, N, N>,
+        at: &Self::Linearized,
     ) -> Result<PhaseMatrix<L::Scalar, N>, StepError>;
+
+    /// The derivatives of (q1, p1) by what moves the momenta so at fixed ends.
+    ///
+    /// # Errors
+    /// [`StepError::NonFinite`].
+    fn answer<const P: usize>(
+        k: &LegendreDerivatives<L::Scalar, N>,
+        q_by_p: &SMatrix<L::Scalar, N, N>,
+        at: &Self::Linearized,
+        momenta: &MomentaBy<L::Scalar, N, P>,
+    ) -> Result<StateBy<L::Scalar, N, P>, StepError>;
+}
+
+/// A border whose constraints, if there are any, have derivatives by the P parameters of the system.
+pub trait BorderParameters<L: Lagrangian<N> + ?Sized, R, const N: usize, const P: usize>:
+    Border<L, R, N>
+{
+    /// The derivatives of (q1, p1) by the parameters, which move the momenta so at fixed ends.
+    ///
+    /// # Errors
+    /// [`StepError::NonFinite`].
+    fn answer_parameters(
+        system: &L,
+        segment: &Segment<L::Scalar, N>,
+        k: &LegendreDerivatives<L::Scalar, N>,
+        q_by_p: &SMatrix<L::Scalar, N, N>,
+        at: &Self::Linearized,
+        momenta: &MomentaBy<L::Scalar, N, P>,
+    ) -> Result<StateBy<L::Scalar, N, P>, StepError>;
 }

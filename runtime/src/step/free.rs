@@ -1,11 +1,11 @@
 //! Steps that nothing holds beside L, R and f.
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use crate::step::equation::OfRule;
 use crate::step::{
-    Border, BoundedStep, ClosedForm, Discrete, PhaseMatrix, State, Step, StepError, step_by, step_matrix,
-    step_within_by,
+    Border, BorderParameters, BoundedStep, ClosedForm, Discrete, LegendreDerivatives, MomentaBy, PhaseMatrix,
+    Segment, State, StateBy, Step, StepError, invert, step_by, step_within_by,
 };
 
 /// No border: a system without constraints.
@@ -16,6 +16,8 @@ impl<L, R, const N: usize> Border<L, R, N> for Free
 where
     L: ClosedForm<R, N> + Discrete<R, N> + ?Sized,
 {
+    type Linearized = ();
+
     #[inline]
     fn step(
         system: &L,
@@ -37,12 +39,44 @@ where
         step_within_by(system, &OfRule::<L, R>::new(system), state, h, guess, iterations)
     }
 
-    fn step_matrix(
-        system: &L,
-        state: &State<L::Scalar, N>,
-        step: &Step<L::Scalar, N>,
-        h: L::Scalar,
+    fn linearized(
+        _: &L,
+        _: &Segment<L::Scalar, N>,
+        k: &LegendreDerivatives<L::Scalar, N>,
+    ) -> Result<(SMatrix<L::Scalar, N, N>, ()), StepError> {
+        Ok((invert(&k.p0_by_q1)?, ()))
+    }
+
+    fn by_state(
+        k: &LegendreDerivatives<L::Scalar, N>,
+        q_by_p: &SMatrix<L::Scalar, N, N>,
+        (): &(),
     ) -> Result<PhaseMatrix<L::Scalar, N>, StepError> {
-        step_matrix(system, state, step, h)
+        k.step_matrix_with(q_by_p)
+    }
+
+    fn answer<const P: usize>(
+        k: &LegendreDerivatives<L::Scalar, N>,
+        q_by_p: &SMatrix<L::Scalar, N, N>,
+        (): &(),
+        momenta: &MomentaBy<L::Scalar, N, P>,
+    ) -> Result<StateBy<L::Scalar, N, P>, StepError> {
+        k.answer(q_by_p, momenta)
+    }
+}
+
+impl<L, R, const N: usize, const P: usize> BorderParameters<L, R, N, P> for Free
+where
+    L: ClosedForm<R, N> + Discrete<R, N> + ?Sized,
+{
+    fn answer_parameters(
+        _: &L,
+        _: &Segment<L::Scalar, N>,
+        k: &LegendreDerivatives<L::Scalar, N>,
+        q_by_p: &SMatrix<L::Scalar, N, N>,
+        (): &(),
+        momenta: &MomentaBy<L::Scalar, N, P>,
+    ) -> Result<StateBy<L::Scalar, N, P>, StepError> {
+        k.answer(q_by_p, momenta)
     }
 }

@@ -4,16 +4,17 @@ use nalgebra::SMatrix;
 
 use crate::step::discrete::explained_on;
 use crate::step::{
-    ByFormula, ClosedForm, Discrete, DiscreteObjects, Flow, Formulas, LegendreDerivatives, Linearizable,
-    MomentaBy, PhaseMatrix, Segment, State, StateBy, Step, StepError, invert,
+    Border, BorderParameters, ByFormula, ClosedForm, Discrete, DiscreteObjects, Flow, Formulas,
+    LegendreDerivatives, Linearizable, MomentaBy, PhaseMatrix, Segment, State, StateBy, Step, StepError,
 };
 
 /// The derivatives of both Legendre transforms on the segment of a step, and what dp0 makes of q1.
 pub struct LinearizedSegment<'a, L: ClosedForm<R, N>, R, const N: usize> {
     pub(crate) on: Formulas<'a, L, R, N>,
     pub(crate) k: LegendreDerivatives<L::Scalar, N>,
-    /// K01⁻¹.
+    /// ∂q1/∂p0: K01⁻¹, on constraints along them.
     pub(crate) q_by_p: SMatrix<L::Scalar, N, N>,
+    border: <L::Border as Border<L, R, N>>::Linearized,
 }
 
 impl<L: ClosedForm<R, N> + Discrete<R, N>, R, const N: usize> LinearizedSegment<'_, L, R, N> {
@@ -22,7 +23,28 @@ impl<L: ClosedForm<R, N> + Discrete<R, N>, R, const N: usize> LinearizedSegment<
         &self,
         momenta: &MomentaBy<L::Scalar, N, M>,
     ) -> Result<StateBy<L::Scalar, N, M>, StepError> {
-        self.k.answer(&self.q_by_p, momenta).map_err(|error| self.explained(error))
+        <L::Border as Border<L, R, N>>::answer(&self.k, &self.q_by_p, &self.border, momenta)
+            .map_err(|error| self.explained(error))
+    }
+
+    /// [`answer`](Self::answer) where it is the parameters that move the momenta.
+    pub(crate) fn answer_parameters<const P: usize>(
+        &self,
+        momenta: &MomentaBy<L::Scalar, N, P>,
+    ) -> Result<StateBy<L::Scalar, N, P>, StepError>
+    where
+        L::Border: BorderParameters<L, R, N, P>,
+    {
+        let (system, segment) = (self.on.system, self.on.segment());
+        <L::Border as BorderParameters<L, R, N, P>>::answer_parameters(
+            system,
+            segment,
+            &self.k,
+            &self.q_by_p,
+            &self.border,
+            momenta,
+        )
+        .map_err(|error| self.explained(error))
     }
 
     fn explained(&self, error: StepError) -> StepError {
@@ -54,20 +76,15 @@ where
     where
         L: 'a,
     {
-        const {
-            assert!(
-                !L::IS_CONSTRAINED,
-                "of a step on constraints there is the derivative by its state: `by.linearized_step(&state)`"
-            );
-        }
         let k = on.legendre_derivatives()?;
-        let q_by_p =
-            invert(&k.p0_by_q1).map_err(|error| explained_on::<L, R, N>(on.system, on.segment(), error))?;
-        Ok(LinearizedSegment { on, k, q_by_p })
+        let (q_by_p, border) = <L::Border as Border<L, R, N>>::linearized(on.system, on.segment(), &k)
+            .map_err(|error| explained_on::<L, R, N>(on.system, on.segment(), error))?;
+        Ok(LinearizedSegment { on, k, q_by_p, border })
     }
 
     fn by_state(at: &LinearizedSegment<'_, L, R, N>) -> Result<PhaseMatrix<L::Scalar, N>, StepError> {
-        at.k.step_matrix_with(&at.q_by_p).map_err(|error| at.explained(error))
+        <L::Border as Border<L, R, N>>::by_state(&at.k, &at.q_by_p, &at.border)
+            .map_err(|error| at.explained(error))
     }
 }
 
@@ -85,6 +102,9 @@ where
     system
         .on(&segment)?
         .legendre_derivatives()
-        .and_then(|k| k.step_matrix())
+        .and_then(|k| {
+            let (q_by_p, border) = <L::Border as Border<L, R, N>>::linearized(system, &segment, &k)?;
+            <L::Border as Border<L, R, N>>::by_state(&k, &q_by_p, &border)
+        })
         .map_err(|error| explained_on::<L, R, N>(system, &segment, error))
 }

@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use crate::step::{
     Border, BoundedFlow, BoundedStep, ByFormula, ClosedForm, Discrete, Flow, LinearizedStep, Segment, State,
-    Step, StepError, of_equation_and_step, verify_momenta,
+    Step, StepError, of_equation_and_step, step_matrix, verify_momenta,
 };
 use crate::system::GeneratedDiffers;
 
@@ -56,7 +56,7 @@ where
         guess: Option<&SVector<L::Scalar, N>>,
     ) -> Result<LinearizedStep<L::Scalar, N>, StepError> {
         let step = self.step(state, h, guess)?;
-        Ok((step, <L::Border as Border<L, R, N>>::step_matrix(self, state, &step, h)?))
+        Ok((step, step_matrix::<L, R, N>(self, state, &step, h)?))
     }
 
     fn verify_momenta(&self, state: &State<L::Scalar, N>, h: L::Scalar) -> Result<(), GeneratedDiffers> {

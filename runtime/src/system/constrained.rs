@@ -1,11 +1,15 @@
-//! Holonomic constraints g(q) = 0, and what a point off them is told.
+//! Constraints on q and on v, and the verdict on a point that is off them.
 
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::Scalar;
 use crate::system::{Lagrangian, Violation};
 
-/// Holonomic constraints gₖ(q) = 0, k = 1 … M, that hold a system on N = g⁻¹(0).
+/// M constraints that hold a system: holonomic ones, gₖ(q, t) = 0, then those of velocity, ψₖ(q, v, t) = 0,
+/// linear in v.
+///
+/// Each has a rate ρₖ(q, v), which vanishes along the motion: gₖ differentiated by time, or ψₖ. Reactions act
+/// along the rows of G = ∂ρ/∂v, which is ∂g/∂q for holonomic constraints.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no constraints as it stands here",
     label = "no constraints",
@@ -13,21 +17,88 @@ use crate::system::{Lagrangian, Violation};
     note = "a system whose functions take an input or a time has them as `system.driven(u)` or `system.at_time(t)`"
 )]
 pub trait Constrained<const N: usize, const M: usize>: Lagrangian<N> {
-    /// g(q).
-    fn constraints(&self, q: &SVector<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
+    /// The number of constraints of velocity: the last ones.
+    const OF_VELOCITY: usize = 0;
 
-    /// g(q), and G = ∂g/∂q of shape M×N.
+    /// Whether a system at rest may leave a constraint: where one depends on time, or is not homogeneous in v.
+    const IS_PRESCRIBED: bool = false;
+
+    /// g(q); 0 for a constraint of velocity.
+    #[inline]
+    fn constraints(&self, q: &SVector<Self::Scalar, N>) -> SVector<Self::Scalar, M> {
+        let _ = q;
+        nalgebra::zero()
+    }
+
+    /// ψ(q, v); 0 for a holonomic constraint.
+    #[inline]
+    fn velocity_constraints(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> SVector<Self::Scalar, M> {
+        let _ = (q, v);
+        nalgebra::zero()
+    }
+
+    /// g(q), 0 for a constraint of velocity, and G of shape M×N.
     fn constraint_gradients(
         &self,
         q: &SVector<Self::Scalar, N>,
     ) -> (SVector<Self::Scalar, M>, SMatrix<Self::Scalar, M, N>);
 
-    /// Σ λₖ ∂²gₖ/∂q², which derivatives of a step ask for; the step itself does not.
+    /// ρ(q, v), and ∂ρ/∂q of shape M×N. A step asks for it where there are constraints of velocity, or
+    /// prescribed ones.
+    fn constraint_rates(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> (SVector<Self::Scalar, M>, SMatrix<Self::Scalar, M, N>);
+
+    /// ∂(Gᵀλ)/∂q, which derivatives of a step ask for; the step itself does not.
     fn constraint_curvature(
         &self,
         q: &SVector<Self::Scalar, N>,
         lambda: &SVector<Self::Scalar, M>,
     ) -> SMatrix<Self::Scalar, N, N>;
+}
+
+/// Derivatives of M constraints by P parameters θ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConstraintsBy<S, const N: usize, const M: usize, const P: usize> {
+    /// ∂g/∂θ, 0 for constraints of velocity.
+    pub values: SMatrix<S, M, P>,
+    /// ∂ρ/∂θ.
+    pub rates: SMatrix<S, M, P>,
+    /// ∂(Gᵀλ)/∂θ.
+    pub reaction: SMatrix<S, N, P>,
+}
+
+/// Constraints by the P parameters that [`Parameters`](crate::system::Parameters) lists.
+pub trait ConstrainedParameters<const N: usize, const M: usize, const P: usize>: Constrained<N, M> {
+    /// ∂g/∂θ at q, ∂ρ/∂θ at (q, v) and ∂(Gᵀλ)/∂θ.
+    fn constraints_by_parameters(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+        lambda: &SVector<Self::Scalar, M>,
+    ) -> ConstraintsBy<Self::Scalar, N, M, P>;
+}
+
+/// The rows of holonomic constraints, with 0 behind them.
+#[inline]
+pub fn first_rows<S: Scalar, const H: usize, const M: usize>(values: [S; H]) -> SVector<S, M> {
+    let mut rows: SVector<S, M> = nalgebra::zero();
+    rows.as_mut_slice().iter_mut().zip(values).for_each(|(row, value)| *row = value);
+    rows
+}
+
+/// The rows of constraints of velocity, with 0 before them.
+#[inline]
+pub fn last_rows<S: Scalar, const V: usize, const M: usize>(values: [S; V]) -> SVector<S, M> {
+    let mut rows: SVector<S, M> = nalgebra::zero();
+    rows.as_mut_slice().iter_mut().skip(M - V.min(M)).zip(values).for_each(|(row, value)| *row = value);
+    rows
 }
 
 /// Roundings of the terms of gₖ and of its rate that a point on the constraints may be off, given as rounded
@@ -49,7 +120,9 @@ where
     if let Some((constraint, value)) = off(&values, &gradients, q) {
         return Some(Violation::Off { constraint, value: value.widen() });
     }
-    let (rates, sizes) = (gradients * v, sizes(&gradients, v));
+    let ((rates, _), (drift, _)) =
+        (system.constraint_rates(q, v), system.constraint_rates(q, &nalgebra::zero()));
+    let sizes = sizes(&gradients, v) + drift.abs();
     let rounded = rates.as_slice().iter().zip(sizes.as_slice());
     for (constraint, (rate, size)) in rounded.enumerate() {
         if exceeds(*rate, *size) {

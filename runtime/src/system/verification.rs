@@ -118,9 +118,14 @@ pub fn time_scale<L: TimeScale<N>, const N: usize>(
 pub fn constraints<L: Constrained<N, M>, const N: usize, const M: usize>(
     system: &L,
     q: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
 ) -> Result<(), GeneratedDiffers> {
-    let (system, q) = black_box((system, q));
-    let (generated, written) = (system.constraint_gradients(q).0, system.constraints(q));
+    let (system, q, v) = black_box((system, q, v));
+    let (mut generated, mut written) = (system.constraint_gradients(q).0, system.constraints(q));
+    let (rates, of_velocity) = (system.constraint_rates(q, v).0, system.velocity_constraints(q, v));
+    for k in M - L::OF_VELOCITY.min(M)..M {
+        (generated[k], written[k]) = (rates[k], of_velocity[k]);
+    }
     (0..M).try_for_each(|index| compare(Function::Constraint { index }, generated[index], written[index]))
 }
 

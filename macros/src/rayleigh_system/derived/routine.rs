@@ -46,10 +46,14 @@ pub enum Of {
     ForceDerivatives,
     /// σ and ∇σ.
     TimeScaleGradient,
-    /// g and ∂g/∂q.
+    /// g and G, of all rows.
     ConstraintGradients,
-    /// Σ λₖ ∂²gₖ/∂q².
+    /// ρ and ∂ρ/∂q.
+    ConstraintRates,
+    /// ∂(Gᵀλ)/∂q.
     ConstraintCurvature,
+    /// ∂g/∂θ, ∂ρ/∂θ and ∂(Gᵀλ)/∂θ.
+    ConstraintsByParameters,
     /// ∂f/∂u.
     ForceByInput,
     /// ∂²/∂q∂θ and ∂²/∂v∂θ of L or R, ∂f/∂θ.
@@ -95,7 +99,9 @@ impl Of {
                 &["q", "v", "p", "kept", "fields", "systems", "anchors", "angles", "reciprocals"]
             }
             Self::Along(Part::Force) => &["q", "v", "h", "half", "q0", "q1", "minus", "plus", "vector"],
-            Self::ConstraintCurvature => &["q", "v", "h", "half", "q0", "q1", "minus", "plus", "lambda"],
+            Self::ConstraintCurvature | Self::ConstraintsByParameters => {
+                &["q", "v", "h", "half", "q0", "q1", "minus", "plus", "lambda"]
+            }
             Self::Along(_) => &["q", "v", "h", "half", "q0", "q1", "minus", "plus", "a", "b"],
             _ => &["q", "v", "h", "half", "q0", "q1", "minus", "plus"],
         }

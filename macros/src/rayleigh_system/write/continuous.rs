@@ -30,7 +30,7 @@ pub fn lagrangian(
         let is_expanded = matches!(structure.engine, Engine::Expanded);
         let missing = (!is_expanded || places.is_some()).then(|| without_derivative(system, home));
         let non_finite = non_finite_value(system, home, plain.names_fields);
-        let violation = constrained::violation(system);
+        let violation = constrained::violation(system, home);
         quote!(#verification #missing #places #non_finite #violation)
     };
     let of_view = system.has_view().then(|| asked(Home::View));
@@ -105,10 +105,8 @@ fn verification(system: &System<'_>, home: Home) -> TokenStream {
     let time_scale = (system.has(Part::TimeScale) && home == system.home())
         .then(|| quote!(::dalembert::generated::verification::time_scale(self, q)?;));
     let (n, m) = (system.degrees.times(1), system.constraint_count());
-    let constraints = system
-        .constraints
-        .as_ref()
-        .map(|_| quote!(::dalembert::generated::verification::constraints::<_, #n, #m>(self, q)?;));
+    let constraints = constrained::is_held(system, home)
+        .then(|| quote!(::dalembert::generated::verification::constraints::<_, #n, #m>(self, q, v)?;));
     let before = quote!(#time_scale #constraints);
     // fn verify_generated(&self, q: …, v: …) -> Result<(), GeneratedDiffers> {
     //     verification::lagrangian(self, q, v)?; verification::rayleigh(self, q, v)

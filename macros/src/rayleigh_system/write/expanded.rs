@@ -69,7 +69,11 @@ fn functions(system: &System<'_>, derived: Derived, is_portable: bool) -> Engine
     let [force, time_scale, by_input, cancelling_terms] =
         [Of::ForceDerivatives, Of::TimeScaleGradient, Of::ForceByInput, Of::CancellingTerms]
             .map(|asked| text.functions_of(|of| of == asked));
-    let constraints = text.functions_of(|of| matches!(of, Of::ConstraintGradients | Of::ConstraintCurvature));
+    let constraints = text.functions_of(|of| {
+        matches!(of, Of::ConstraintGradients | Of::ConstraintRates | Of::ConstraintCurvature)
+    });
+    let constraints = constraints.map(|functions| (functions, derived.constraints.is_prescribed));
+    let constraints_by_parameters = text.functions_of(|of| of == Of::ConstraintsByParameters);
     let by_parameters = text.functions_of(|of| matches!(of, Of::ByParameters(_)));
     let second_order = text.functions_of(|of| matches!(of, Of::Along(_)));
     let places = [0, 1].map(|home| text.places(&derived.places[home]));
@@ -81,6 +85,7 @@ fn functions(system: &System<'_>, derived: Derived, is_portable: bool) -> Engine
         force,
         time_scale,
         constraints,
+        constraints_by_parameters,
         by_input,
         cancelling_terms,
         places,

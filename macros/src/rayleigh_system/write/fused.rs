@@ -61,7 +61,7 @@ pub fn fused(
     };
     let memory = match memory {
         // The others solve a step without a border.
-        _ if system.constraints.is_some() => quote!(::dalembert::generated::VelocityHistory<#scalar, #n>),
+        _ if system.is_constrained() => quote!(::dalembert::generated::VelocityHistory<#scalar, #n>),
         Memory::Velocities => quote!(::dalembert::generated::VelocityHistory<#scalar, #n>),
         Memory::Matrix => quote!(::dalembert::generated::KeptMatrix<#scalar, Self::Matrix, #n>),
         Memory::Explicit => quote!(::dalembert::generated::ExplicitMemory<#scalar, Self::Matrix, #n>),
@@ -70,12 +70,11 @@ pub fn fused(
             quote!(::dalembert::generated::#name<#scalar, #n>)
         }
     };
-    let border = match &system.constraints {
-        None => quote!(::dalembert::generated::Free),
-        Some(count) => {
-            let m = count.times(1);
-            quote!(::dalembert::generated::Holonomic<#m>)
-        }
+    let border = if system.is_constrained() {
+        let m = system.constraint_count();
+        quote!(::dalembert::generated::Constraints<#m>)
+    } else {
+        quote!(::dalembert::generated::Free)
     };
     let linear = is_linear.then(|| {
         quote!(
@@ -83,7 +82,7 @@ pub fn fused(
         )
     });
     // impl Explicit<2> for Ring
-    let explicit = explicit.filter(|_| system.constraints.is_none());
+    let explicit = explicit.filter(|_| !system.is_constrained());
     let explicit = explicit.map(|functions| {
         quote! {
             #[automatically_derived]
@@ -173,7 +172,7 @@ fn cancelling_terms(system: &System<'_>, rule: Rule) -> TokenStream {
 
 /// `impl OffersMethods<2> for Ring`: what an error can be asked of.
 pub fn offered_methods(system: &System<'_>, is_explicit: bool) -> Option<TokenStream> {
-    if system.constraints.is_some() {
+    if system.is_constrained() {
         return None;
     }
     let mut rules = system.rules.of_displacement.iter();

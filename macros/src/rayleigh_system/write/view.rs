@@ -193,7 +193,7 @@ pub fn delegation(system: &System<'_>, part: Part, verification: Option<TokenStr
             ("lagrangian", "Lagrangian", Some(associated), later(system))
         }
         Part::Rayleigh => ("rayleigh", "Rayleigh", None, None),
-        Part::Force | Part::TimeScale | Part::Constraints => return None,
+        Part::Force | Part::TimeScale | Part::Constraints | Part::VelocityConstraints => return None,
     };
     let [value, gradient, derivatives, variations] =
         ["", "_gradient", "_derivatives", "_variations"].map(|suffix| format_ident!("{function}{suffix}"));

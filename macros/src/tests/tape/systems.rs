@@ -12,7 +12,7 @@ const ATTRIBUTES: [&str; 7] = [
     "rule = trapezoidal, lanes = explicit",
     "rule = [midpoint, gauss], lanes = [midpoint, gauss], multiply_add = fused",
     "rule = gauss",
-    "rule = [trapezoidal, midpoint]",
+    "rule = [trapezoidal, midpoint], parameters = [m, k]",
 ];
 
 /// A system with random L, R and f, and what is asked for.
@@ -37,9 +37,14 @@ pub fn system(seed: u64) -> (TokenStream, TokenStream) {
     let force = if is_joint { "" } else { &force };
     let scale = "fn time_scale(&self, q: [f64; 2]) -> f64 { 1.0 + self.m * q[0].cos() * q[1] }";
     let scale = if attribute == "rule = gauss" { scale } else { "" };
-    let constraints =
-        "fn constraints(&self, q: [f64; 2]) -> [f64; 1] { [self.k * q[0] * q[0] * q[1].sin() - self.m] }";
-    let constraints = if attribute == "rule = [trapezoidal, midpoint]" { constraints } else { "" };
+    let constraints = format!(
+        "fn constraints(&self, q: [f64; 2]{t}) -> [f64; 1] {{ [self.k * q[0] * q[0] * q[1].sin() - self.m{phase}] }}
+        fn velocity_constraints(&self, q: [f64; 2], v: [f64; 2]) -> [f64; 1] {{
+            [self.m * q[0].cos() * v[1] - v[0] / self.k]
+        }}"
+    );
+    let is_constrained = attribute == "rule = [trapezoidal, midpoint], parameters = [m, k]";
+    let constraints = if is_constrained { &constraints } else { "" };
     let item = format!(
         "impl Random {{
             fn lagrangian(&self, q: [f64; 2], v: [f64; 2]{t}) -> f64 {{

@@ -63,6 +63,25 @@ impl Text<'_> {
                 let result = quote!((SVector::from([#(#values),*]), #gradients));
                 (inlined(statements), "constraint_gradients".to_owned(), ty, result)
             }
+            Of::ConstraintRates => {
+                let count = outputs.len() / (self.derived.n + 1);
+                let (rates, by_q) = outputs.split_at(count);
+                let by_q = matrix(by_q, count);
+                let ty = quote!((SVector<#scalar, #constraints>, SMatrix<#scalar, #constraints, #n>));
+                (inline, "constraint_rates".to_owned(), ty, quote!((SVector::from([#(#rates),*]), #by_q)))
+            }
+            Of::ConstraintsByParameters => {
+                let count = (outputs.len() / self.system.parameters.len() - self.derived.n) / 2;
+                let (values, others) = outputs.split_at(count * self.system.parameters.len());
+                let (rates, reaction) = others.split_at(values.len());
+                let [values, rates] = [values, rates].map(|entries| matrix(entries, count));
+                let reaction = matrix(reaction, self.derived.n);
+                let ty = quote!(::dalembert::generated::ConstraintsBy<#scalar, #n, #constraints, #p>);
+                let result = quote! {
+                    ::dalembert::generated::ConstraintsBy { values: #values, rates: #rates, reaction: #reaction }
+                };
+                (None, "constraints_by_parameters".to_owned(), ty, result)
+            }
             Of::ConstraintCurvature => {
                 let ty = quote!(SMatrix<#scalar, #n, #n>);
                 (None, "constraint_curvature".to_owned(), ty, matrix(outputs, self.derived.n))
@@ -112,7 +131,9 @@ impl Text<'_> {
         });
         let further: (&[&str], _) = match function.of {
             Of::Variations => (&["minus", "plus"], quote!(Direction<#scalar>)),
-            Of::ConstraintCurvature => (&["lambda"], quote!(&SVector<#scalar, #constraints>)),
+            Of::ConstraintCurvature | Of::ConstraintsByParameters => {
+                (&["lambda"], quote!(&SVector<#scalar, #constraints>))
+            }
             Of::Along(Part::Force) => (&["vector"], quote!(&Vector)),
             Of::Along(_) => (&["a", "b"], quote!(&Vector)),
             _ => (&[], quote!()),

@@ -7,13 +7,11 @@ use nalgebra::{SMatrix, SVector};
 use super::columns::by_columns;
 use super::complement::Complement;
 use super::nearest::{dependent, require_on, tangent};
+use super::rows::Rows;
 use crate::numbers::{Factored, NewtonMatrix, Scalar};
 use crate::step::equation::{OfRule, StepEquation};
 use crate::step::{ClosedForm, Discrete, Momenta, Segment, State, Step, StepError, StepKernel};
-use crate::system::{Constrained, sizes};
-
-/// Roundings of the terms of a constraint below which its value counts as 0.
-const ROUNDINGS: f64 = 4.0;
+use crate::system::Constrained;
 
 /// The equation F(v̄) = 0 of a step on constraints from a state (q0, p), as p + F(v̄) = p.
 pub(super) struct OnConstraints<'a, L, R, const N: usize, const M: usize>
@@ -31,39 +29,24 @@ where
     last: RefCell<Option<Bordered<L::Scalar, L::Matrix, N, M>>>,
 }
 
-/// W, S and the gradients of the constraints at both ends.
+/// W, S and the constraints.
 struct Bordered<S: Scalar, W: NewtonMatrix<S, N>, const N: usize, const M: usize> {
     matrix: W::Factored,
     directions: SMatrix<S, N, M>,
-    /// G(q1).
-    gradients: SMatrix<S, M, N>,
+    rows: Rows<S, N, M>,
     complement: Complement<S, M>,
 }
 
 impl<S: Scalar, W: NewtonMatrix<S, N>, const N: usize, const M: usize> Bordered<S, W, N, M> {
     /// κ = (h/2)λ of what is left, r and c.
     fn multipliers(&self, left: &SVector<S, N>, values: &SVector<S, M>) -> SVector<S, M> {
-        self.complement.solve(&(self.gradients * self.matrix.solve(left) - values))
+        self.complement.solve(&(self.rows.gradients * self.matrix.solve(left) - values))
     }
 
     /// F.
     fn residual(&self, left: &SVector<S, N>, values: &SVector<S, M>) -> SVector<S, N> {
         left - self.directions * self.multipliers(left, values)
     }
-}
-
-/// The values of the constraints by h, 0 where rounding explains one.
-fn beyond_rounding<S: Scalar, const N: usize, const M: usize>(
-    mut values: SVector<S, M>,
-    gradients: &SMatrix<S, M, N>,
-    segment: &Segment<S, N>,
-) -> SVector<S, M> {
-    let unit = S::EPSILON * S::constant(ROUNDINGS);
-    let sizes = sizes(gradients, &(segment.q0.abs() + (segment.v * segment.h).abs()));
-    for (value, size) in values.as_mut_slice().iter_mut().zip(sizes.as_slice()) {
-        *value = if value.abs() <= *size * unit { S::zero() } else { *value / segment.h };
-    }
-    values
 }
 
 impl<'a, L, R, const N: usize, const M: usize> OnConstraints<'a, L, R, N, M>
@@ -79,29 +62,23 @@ where
         Ok(Self { system, free, state, directions, is_frozen: Cell::new(true), last })
     }
 
-    /// p0 and W on the segment without the constraints, c = g(q1)/h, 0 where rounding explains it, and W and
-    /// S made ready, where neither is singular beyond redundancy.
-    #[expect(clippy::type_complexity, reason = "three values that belong together here alone")]
+    /// p0 and W on the segment without the constraints; and W, S and the constraints, where neither matrix is
+    /// singular beyond redundancy.
+    #[expect(clippy::type_complexity, reason = "two values that belong together here alone")]
     fn evaluated(
         &self,
         segment: &Segment<L::Scalar, N>,
-    ) -> (
-        StepKernel<L::Scalar, N, L::Matrix>,
-        SVector<L::Scalar, M>,
-        Option<Bordered<L::Scalar, L::Matrix, N, M>>,
-    ) {
+    ) -> (StepKernel<L::Scalar, N, L::Matrix>, Option<Bordered<L::Scalar, L::Matrix, N, M>>) {
         let kernel = self.free.kernel(segment);
-        let (values, gradients) = self.system.constraint_gradients(&segment.end());
-        let values = beyond_rounding(values, &gradients, segment);
-        let bordered = self.bordered(segment, &kernel.matrix, gradients);
-        (kernel, values, bordered)
+        let bordered = self.bordered(segment, &kernel.matrix, Rows::on(self.system, segment));
+        (kernel, bordered)
     }
 
     fn bordered(
         &self,
         segment: &Segment<L::Scalar, N>,
         matrix: &L::Matrix,
-        gradients: SMatrix<L::Scalar, M, N>,
+        rows: Rows<L::Scalar, N, M>,
     ) -> Option<Bordered<L::Scalar, L::Matrix, N, M>> {
         // Where rounding is measured, q0 is moved.
         let directions = if segment.q0 == self.state.q {
@@ -111,25 +88,25 @@ where
         };
         let matrix = matrix.factored()?;
         let answers = by_columns(&directions, |direction| matrix.solve(direction));
-        let complement = Complement::of(&(gradients * answers))?;
-        Some(Bordered { matrix, directions, gradients, complement })
+        let complement = Complement::of(&(rows.gradients * answers))?;
+        Some(Bordered { matrix, directions, rows, complement })
     }
 
     /// p + F with W and S of this segment, where p0 has this value.
     #[cold]
     #[inline(never)]
     fn compared(&self, segment: &Segment<L::Scalar, N>, p0: &SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
-        let (_, values, bordered) = self.evaluated(segment);
-        match bordered {
-            Some(bordered) => self.state.p + bordered.residual(&(p0 - self.state.p), &values),
+        match self.evaluated(segment).1 {
+            Some(bordered) => self.state.p + bordered.residual(&(p0 - self.state.p), &bordered.rows.values),
             None => *p0,
         }
     }
 
     /// κ = (h/2)λ on the segment of a step.
     pub(super) fn multipliers(&self, segment: &Segment<L::Scalar, N>) -> Option<SVector<L::Scalar, M>> {
-        let (kernel, values, bordered) = self.evaluated(segment);
-        Some(bordered?.multipliers(&(kernel.p0 - self.state.p), &values))
+        let (kernel, bordered) = self.evaluated(segment);
+        let bordered = bordered?;
+        Some(bordered.multipliers(&(kernel.p0 - self.state.p), &bordered.rows.values))
     }
 
     /// The step with its momentum on N: G(q1)·v(q1, p1) = 0.
@@ -187,11 +164,11 @@ where
     type Matrix = L::Matrix;
 
     fn kernel(&self, segment: &Segment<L::Scalar, N>) -> StepKernel<L::Scalar, N, L::Matrix> {
-        let (StepKernel { p0, matrix }, values, bordered) = self.evaluated(segment);
+        let (StepKernel { p0, matrix }, bordered) = self.evaluated(segment);
         let kernel = match &bordered {
             Some(bordered) => {
                 let p = self.state.p;
-                StepKernel { p0: p + bordered.residual(&(p0 - p), &values), matrix }
+                StepKernel { p0: p + bordered.residual(&(p0 - p), &bordered.rows.values), matrix }
             }
             // Singular itself, or the complement is: what is solved with it says so.
             None if matrix.factored().is_none() => StepKernel { p0, matrix },
@@ -215,8 +192,7 @@ where
         }
         match self.last.try_borrow().as_deref() {
             Ok(Some(last)) => {
-                let values = self.system.constraints(&segment.end());
-                let values = beyond_rounding(values, &last.gradients, segment);
+                let values = last.rows.values(self.system, segment);
                 let p = self.state.p;
                 Momenta { p0: p + last.residual(&(p0 - p), &values), p1 }
             }

@@ -1,4 +1,4 @@
-//! Steps on holonomic constraints.
+//! Steps on constraints.
 //!
 //! ```text
 //! p0 = −D1 L_d − f_d⁻ − (h/2) G(q0)ᵀλ        g(q1) = 0
@@ -28,23 +28,28 @@ mod inertia;
 mod linearized;
 mod nearest;
 mod reactions;
+mod rows;
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use crate::step::{
-    Border, BoundedStep, ClosedForm, Discrete, PhaseMatrix, State, Step, StepError, step_by, step_within_by,
+    Border, BoundedStep, ClosedForm, Discrete, LegendreDerivatives, MomentaBy, PhaseMatrix, Segment, State,
+    StateBy, Step, StepError, step_by, step_within_by,
 };
 use crate::system::Constrained;
 use equation::OnConstraints;
+pub use linearized::Linearized;
 
-/// M holonomic constraints, [`Constrained`]: the border of a step on N = g⁻¹(0).
+/// M constraints, [`Constrained`]: the border of a step on N = g⁻¹(0), along the constraints of velocity.
 #[derive(Clone, Copy, Debug)]
-pub struct Holonomic<const M: usize>;
+pub struct Constraints<const M: usize>;
 
-impl<L, R, const N: usize, const M: usize> Border<L, R, N> for Holonomic<M>
+impl<L, R, const N: usize, const M: usize> Border<L, R, N> for Constraints<M>
 where
     L: ClosedForm<R, N> + Discrete<R, N> + Constrained<N, M>,
 {
+    type Linearized = Linearized<L::Scalar, N, M>;
+
     fn step(
         system: &L,
         state: &State<L::Scalar, N>,
@@ -69,12 +74,28 @@ where
         Ok(BoundedStep { step: equation.on_constraints(step, h)?, converged })
     }
 
-    fn step_matrix(
+    fn linearized(
         system: &L,
-        state: &State<L::Scalar, N>,
-        step: &Step<L::Scalar, N>,
-        h: L::Scalar,
+        segment: &Segment<L::Scalar, N>,
+        k: &LegendreDerivatives<L::Scalar, N>,
+    ) -> Result<(SMatrix<L::Scalar, N, N>, Self::Linearized), StepError> {
+        Linearized::of::<L, R>(system, segment, k)
+    }
+
+    fn by_state(
+        k: &LegendreDerivatives<L::Scalar, N>,
+        q_by_p: &SMatrix<L::Scalar, N, N>,
+        at: &Self::Linearized,
     ) -> Result<PhaseMatrix<L::Scalar, N>, StepError> {
-        linearized::step_matrix::<L, R, N, M>(system, state, step, h)
+        at.by_state(k, q_by_p)
+    }
+
+    fn answer<const P: usize>(
+        k: &LegendreDerivatives<L::Scalar, N>,
+        q_by_p: &SMatrix<L::Scalar, N, N>,
+        at: &Self::Linearized,
+        momenta: &MomentaBy<L::Scalar, N, P>,
+    ) -> Result<StateBy<L::Scalar, N, P>, StepError> {
+        at.answer(k, q_by_p, momenta)
     }
 }

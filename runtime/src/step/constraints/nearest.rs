@@ -5,6 +5,7 @@ use nalgebra::{SMatrix, SVector};
 use super::columns::by_columns;
 use super::complement::Complement;
 use super::inertia::Inertia;
+use super::rows::with_last;
 use crate::numbers::{Scalar, linear};
 use crate::step::newton::{estimated_floor, held_against};
 use crate::step::{State, StepError};
@@ -55,8 +56,9 @@ impl<S: Scalar, const N: usize> State<S, N> {
         let (mut q, v) = (q.into(), v.into());
         StepError::require_finite(&q, Quantity::Configuration)?;
         StepError::require_finite(&v, Quantity::Velocity)?;
-        for _ in 0..MOST {
-            let at = AtPoint::<S, N, M>::of(system, &q, Inertia::at(system, &q, &v)?)?;
+        // Constraints of velocity alone do not hold q.
+        for _ in 0..if L::OF_VELOCITY < M { MOST } else { 0 } {
+            let at = AtPoint::<S, N, M>::of_configuration(system, &q, &v)?;
             let correction = at.answers * at.complement.solve(&at.values);
             q -= correction;
             StepError::require_finite(&q, Quantity::Configuration)?;
@@ -88,22 +90,77 @@ pub(super) struct AtPoint<S: Scalar, const N: usize, const M: usize> {
 }
 
 impl<S: Scalar, const N: usize, const M: usize> AtPoint<S, N, M> {
-    pub(super) fn of<L: Constrained<N, M, Scalar = S>>(
+    /// # Errors
+    /// [`StepError::DependentConstraints`]; those of [`Inertia::at`].
+    pub(super) fn at<L>(system: &L, q: &SVector<S, N>, v: &SVector<S, N>) -> Result<Self, StepError>
+    where
+        L: Constrained<N, M, Scalar = S>,
+    {
+        Self::of(system, q, Inertia::at(system, q, v)?)
+    }
+
+    /// # Errors
+    /// [`StepError::DependentConstraints`].
+    fn of<L>(system: &L, q: &SVector<S, N>, inertia: Inertia<S, N>) -> Result<Self, StepError>
+    where
+        L: Constrained<N, M, Scalar = S>,
+    {
+        let (values, gradients) = system.constraint_gradients(q);
+        Self::by(system, q, inertia, (values, gradients), &nalgebra::zero())
+    }
+
+    /// Without constraints of velocity: their rows are 0.
+    ///
+    /// # Errors
+    /// Those of [`at`](Self::at).
+    pub(super) fn of_configuration<L>(
+        system: &L,
+        q: &SVector<S, N>,
+        v: &SVector<S, N>,
+    ) -> Result<Self, StepError>
+    where
+        L: Constrained<N, M, Scalar = S>,
+    {
+        let (values, gradients) = system.constraint_gradients(q);
+        let gradients = with_last(gradients, &nalgebra::zero(), L::OF_VELOCITY);
+        // Whatever stands on the diagonal there, their multipliers are 0.
+        let beside = with_last(nalgebra::zero(), &SMatrix::identity(), L::OF_VELOCITY);
+        Self::by(system, q, Inertia::at(system, q, v)?, (values, gradients), &beside)
+    }
+
+    fn by<L>(
         system: &L,
         q: &SVector<S, N>,
         inertia: Inertia<S, N>,
-    ) -> Result<Self, StepError> {
-        let (values, gradients) = system.constraint_gradients(q);
+        (values, gradients): (SVector<S, M>, SMatrix<S, M, N>),
+        beside: &SMatrix<S, M, M>,
+    ) -> Result<Self, StepError>
+    where
+        L: Constrained<N, M, Scalar = S>,
+    {
         let directions = gradients.transpose();
         let answers = by_columns(&directions, |direction| inertia.solve(direction));
-        match Complement::of(&(gradients * answers)) {
+        match Complement::of(&(gradients * answers + beside)) {
             Some(complement) => Ok(Self { values, gradients, inertia, answers, complement }),
             None => {
                 StepError::require_finite(&directions, Quantity::Derivatives)?;
-                Err(StepError::DependentConstraints { constraint: 0 })
+                Err(dependence::<L, N, M>(system, q))
             }
         }
     }
+}
+
+/// v moves the constraints by G v, and they move by themselves where they are prescribed.
+fn rates<L, const N: usize, const M: usize>(
+    system: &L,
+    at: &AtPoint<L::Scalar, N, M>,
+    q: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
+) -> SVector<L::Scalar, M>
+where
+    L: Constrained<N, M>,
+{
+    if L::IS_PRESCRIBED { system.constraint_rates(q, v).0 } else { at.gradients * v }
 }
 
 /// Fails where q is off a constraint.
@@ -118,7 +175,7 @@ pub(super) fn require_on<S: Scalar, const N: usize, const M: usize>(
     }
 }
 
-/// The state with its momentum on N: p − Gᵀμ with G·v(q, p − Gᵀμ) = 0.
+/// The state with its momentum on N: p − Gᵀμ with ρ(q, v(q, p − Gᵀμ)) = 0.
 pub(super) fn tangent<L, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
@@ -133,7 +190,7 @@ where
     let at = AtPoint::<_, N, M>::of(system, &q, Inertia::of(system, &q, &rest, &at_rest.d22)?)?;
     require_on(&at.values, &at.gradients, &q)?;
     let mut v = at.inertia.solve(&(p - at_rest.d2));
-    let mu = at.complement.solve(&(at.gradients * v));
+    let mu = at.complement.solve(&rates(system, &at, &q, &v));
     let moved = p - at.gradients.transpose() * mu;
     v -= at.answers * mu;
     let residual = system.lagrangian_gradient(&q, &v).d2 - moved;
@@ -142,8 +199,8 @@ where
     }
     v = state.velocity(system)?;
     for _ in 0..MOST {
-        let at = AtPoint::<_, N, M>::of(system, &q, Inertia::at(system, &q, &v)?)?;
-        let left = at.gradients * v;
+        let at = AtPoint::<_, N, M>::at(system, &q, &v)?;
+        let left = rates(system, &at, &q, &v);
         if is_held(&left, &at.gradients, &v) {
             break;
         }
@@ -153,7 +210,7 @@ where
     Ok(State { q, p })
 }
 
-/// Whether rounding explains what is `left` of G·v.
+/// Whether rounding explains what is `left` of ρ.
 fn is_held<S: Scalar, const N: usize, const M: usize>(
     left: &SVector<S, M>,
     gradients: &SMatrix<S, M, N>,
@@ -162,6 +219,19 @@ fn is_held<S: Scalar, const N: usize, const M: usize>(
     let unit = S::EPSILON * S::constant(ROUNDINGS);
     let most = sizes(gradients, v) * unit;
     left.as_slice().iter().zip(most.as_slice()).all(|(left, most)| left.abs() <= *most)
+}
+
+/// The error of constraints that do not determine their reactions at q.
+#[cold]
+#[inline(never)]
+pub(super) fn dependence<L, const N: usize, const M: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+) -> StepError
+where
+    L: Constrained<N, M>,
+{
+    StepError::DependentConstraints { constraint: dependent::<L, N, M>(system, q).unwrap_or_default() }
 }
 
 /// The first constraint whose gradient depends on those before it, in the metric of the mass at rest.

@@ -2,8 +2,9 @@
 
 use nalgebra::SVector;
 
-use super::Holonomic;
+use super::Constraints;
 use super::equation::OnConstraints;
+use super::nearest::dependence;
 use crate::numbers::Scalar;
 use crate::step::{
     ClosedForm, Discrete, Discretised, Fused, Segment, State, Step, StepError, require_step_size,
@@ -52,12 +53,12 @@ where
         step: &Step<L::Scalar, N>,
     ) -> Result<SVector<L::Scalar, M>, StepError>
     where
-        L: Constrained<N, M> + Fused<R, N, Border = Holonomic<M>>,
+        L: Constrained<N, M> + Fused<R, N, Border = Constraints<M>>,
     {
         require_step_size(self.h)?;
         let segment = Segment { q0: state.q, v: step.velocity, h: self.h };
         let kappa = OnConstraints::<L, R, N, M>::new(self.system, state)?.multipliers(&segment);
-        let kappa = kappa.ok_or(StepError::DependentConstraints { constraint: 0 })?;
+        let kappa = kappa.ok_or_else(|| dependence::<L, N, M>(self.system, &state.q))?;
         Ok(kappa * (L::Scalar::constant(2.0) / self.h))
     }
 }
