@@ -103,12 +103,13 @@ mod attributes {
 /// | `fn rayleigh(&self, v: [f64; N]) -> f64`, or `(&self, q, v)` | R, if there is dissipation: the force is −∂R/∂v |
 /// | `fn force(&self, q: [f64; N], v: [f64; N]) -> [f64; N]` | a general force, if there is one; `(&self, q, v, u: [f64; M])` with an input |
 /// | `fn constraints(&self, q: [f64; N]) -> [f64; M]` | holonomic constraints g(q) = 0, if there are any: [below](#constraints) |
+/// | `fn velocity_constraints(&self, q: [f64; N], v: [f64; N]) -> [f64; M]` | constraints of velocity, as in rolling, if there are any: linear in v |
 /// | `fn time_scale(&self, q: [f64; N]) -> f64` | σ > 0, if steps are to follow the motion: [`in_scaled_time`](Trajectory::in_scaled_time) |
 /// | any other | a helper: differentiated if one of these calls it, untouched otherwise |
 ///
 /// `f32` in place of `f64` makes a system in single precision.
 ///
-/// L, R and the force may take a time `t: f64` after their other parameters. Arguments go by their place,
+/// L, R, the force and constraints may take a time `t: f64` after their other parameters. Arguments go by their place,
 /// whatever they are called: q, v, u, t. Any of these names at the place of another is an error, and so is a
 /// number after v that is not called `t` or `time`.
 ///
@@ -206,9 +207,40 @@ mod attributes {
 /// # Ok::<(), StepError>(())
 /// ```
 ///
-/// A = ∂(q1, p1)/∂(q0, p0) is that of [`linearized_step`](Discretised::linearized_step). Constraints go with
-/// inputs and times of the other functions; not yet with Gauss rules, lanes, `to_error`, `time_scale`,
-/// `parameters` and `step_derivatives`, the checkers of the theory, nor in the bindings to C, FMI and Python.
+/// Constraints that depend on time prescribe motion: g(q, t) = 0 drives a hoist, and v has to follow the rope
+/// as it is then. `velocity_constraints` hold v: ψ(q̄, v̄) = 0 in each step, with the reaction along ∂ψ/∂v; v
+/// at the end of each step satisfies ψ as well. Energy does not drift without friction, and order is that of
+/// the rule, but such a step is not symplectic, and has no discrete Lagrangian of its own: a coin that rolls
+///
+/// ```
+/// use dalembert::{Discretise, Midpoint, State, StepError, rayleigh_system};
+///
+/// struct Coin {
+///     slope: f64,
+/// }
+///
+/// #[rayleigh_system]
+/// impl Coin {
+///     // Its place, its heading and its angle.
+///     fn lagrangian(&self, q: [f64; 4], v: [f64; 4]) -> f64 {
+///         0.5 * (v[0] * v[0] + v[1] * v[1] + 0.25 * v[2] * v[2] + 0.5 * v[3] * v[3]) + self.slope * q[0]
+///     }
+///     fn velocity_constraints(&self, q: [f64; 4], v: [f64; 4]) -> [f64; 2] {
+///         [v[0] - q[2].cos() * v[3], v[1] - q[2].sin() * v[3]]
+///     }
+/// }
+///
+/// let coin = Coin { slope: 1.5 };
+/// let start = State::from_velocity(&coin, [0.0; 4], [0.0, 0.0, 1.0, 0.0])?;
+/// let end = coin.by(Midpoint, 0.01).run(start).nth(399).unwrap()?.state;
+/// // It goes across the slope, in arcs: x = ½ sin²t.
+/// assert!((end.q[0] - 0.5 * 4.0_f64.sin().powi(2)).abs() < 1e-4);
+/// # Ok::<(), StepError>(())
+/// ```
+///
+/// A, B and derivatives by parameters are those of the step that [`State::nearest`] extends to states off the
+/// constraints, 2N×2N. Constraints do not go with Gauss rules, lanes, `to_error`, `time_scale` and
+/// `step_derivatives`, nor with the checkers of the theory.
 ///
 /// # Rules
 ///

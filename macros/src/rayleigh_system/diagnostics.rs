@@ -222,7 +222,7 @@ impl Display for Mistake {
             Self::FusedByLibm => f.write_str("without `std` and with the feature `libm` a function stands for the instruction, many times as slow; leave the option out, or take the platform's functions"),
             Self::NoParameters => f.write_str("no parameter is listed; write fields of the system, such as `parameters = [m, k]`, or leave the option out"),
             Self::ParametersByNumDual => f.write_str("derivatives by parameters are written out at compile time; use `derivatives = expanded` with them"),
-            Self::NoSuchParameter(parameter) => write!(f, "neither L, R nor f reads the number `self.{parameter}`; list fields that they read, entries of an array one by one, such as `c[0]`"),
+            Self::NoSuchParameter(parameter) => write!(f, "neither L, R, f nor a constraint reads the number `self.{parameter}`; list fields that they read, entries of an array one by one, such as `c[0]`"),
             Self::HiddenParameter { parameter, within } => write!(f, "`{within}` hides how it depends on `{parameter}`; read the number itself, such as `self.{parameter}`"),
             Self::NotLowered { reason, by_duals: true } => write!(f, "derivatives cannot be written out: {reason}; or leave the derivatives to `derivatives = num_dual`"),
             Self::NotLowered { reason, by_duals: false } => write!(f, "derivatives cannot be written out: {reason}"),

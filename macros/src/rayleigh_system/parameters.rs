@@ -11,8 +11,8 @@ use super::model::{Source, System};
 /// Reports parameters that nothing reads, and those that are read where no derivative reaches them.
 pub fn check(system: &System<'_>, lowered: &Lowered, report: &mut Report) {
     let graph = &lowered.graph;
-    let force = lowered.force.iter().flatten().copied();
-    let roots = [lowered.lagrangian].into_iter().chain(lowered.rayleigh).chain(force);
+    let others = lowered.force.iter().chain(&lowered.constraints).flatten().copied();
+    let roots = [lowered.lagrangian].into_iter().chain(lowered.rayleigh).chain(others);
     let read: Vec<String> = graph
         .reachable(roots)
         .into_iter()

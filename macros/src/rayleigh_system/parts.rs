@@ -125,7 +125,7 @@ impl Part {
                 takes: Arguments::Q,
                 may_take: Arguments::Q_T,
                 returns: Returns::Numbers,
-                parameters: "`(&self, q: [f64; N])`, and `t: f64` after it if they depend on time",
+                parameters: "`(&self, q: [f64; N])`, and `t: f64` after it if they depend on time; `velocity_constraints` hold v",
                 is_term: false,
             },
             Self::VelocityConstraints => Entry {

@@ -53,11 +53,41 @@ impl Signature {
     }
 }
 
+struct OfVelocity;
+
+#[rayleigh_system]
+impl OfVelocity {
+    fn lagrangian(&self, q: [f64; 5], v: [f64; 5]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + v[3] * v[3] + v[4] * v[4]) - q[1]
+    }
+    fn constraints(&self, q: [f64; 5], t: f64) -> [f64; 1] {
+        [t - 1.0 + 0.0 * q[0].sin().powi(0)]
+    }
+    fn velocity_constraints(&self, q: [f64; 5], v: [f64; 5]) -> [f64; 4] {
+        [q[0] * v[1] - v[0], q[0] * v[1] - v[0], v[2] * v[2] - v[3], q[4] - 1.0]
+    }
+}
+
+struct TooManyTogether;
+
+#[rayleigh_system]
+impl TooManyTogether {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * v[0] * v[0] - q[0]
+    }
+    fn constraints(&self, q: [f64; 1]) -> [f64; 1] {
+        [q[0] - 1.0]
+    }
+    fn velocity_constraints(&self, _q: [f64; 1], v: [f64; 1], t: f64) -> [f64; 1] {
+        [v[0] - t]
+    }
+}
+
 struct Asked {
     length: f64,
 }
 
-#[rayleigh_system(rule = [midpoint, gauss], lanes = midpoint, parameters = [length])]
+#[rayleigh_system(rule = [midpoint, gauss], lanes = midpoint, step_derivatives = second, parameters = [length, width])]
 impl Asked {
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
         0.5 * (v[0] * v[0] + v[1] * v[1]) - q[1]

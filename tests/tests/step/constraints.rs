@@ -1,6 +1,10 @@
 //! Steps on holonomic constraints, beside reference steps of an independent program in 40 digits, exact
 //! motions and the same systems in minimal coordinates.
 
+mod derivatives;
+mod of_velocity;
+mod prescribed;
+
 use dalembert::nalgebra::{SMatrix, SVector, Vector3};
 use dalembert::system::Violation;
 use dalembert::{

@@ -60,7 +60,9 @@ pub fn stated(signature: &Signature, part: Part, shape: &Shape, report: &mut Rep
             same_shape(v.1, "v", shape, report);
             (input, takes.t) = after_point(after, may_take, shape, report);
         }
-        (false, &[(of_point, point), ref after @ ..]) if may_take.has_after(after.len()) => {
+        (false, &[(of_point, point), ref after @ ..])
+            if may_take.has_after(after.len()) && (may_take.v || !begins_by_array(after)) =>
+        {
             let (name, place) = if takes.v { ("v", Place::Velocity) } else { ("q", Place::Configuration) };
             at_place(of_point, place, report);
             same_shape(point, name, shape, report);
@@ -71,6 +73,10 @@ pub fn stated(signature: &Signature, part: Part, shape: &Shape, report: &mut Rep
     takes.u = input.is_some();
     let result = returned(signature, part, shape, report);
     Stated { takes, input, result }
+}
+
+fn begins_by_array(parameters: &[Parameter<'_>]) -> bool {
+    matches!(parameters.first(), Some((_, Type::Array(_))))
 }
 
 /// Whether q and v are the first two, where q may be left out.
