@@ -2,8 +2,10 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::numbers::Factored;
 use crate::step::{
-    BoundedStep, LegendreDerivatives, MomentaBy, PhaseMatrix, Segment, State, StateBy, Step, StepError,
+    BoundedStep, LegendreDerivatives, Momenta, MomentaBy, PhaseMatrix, Segment, State, StateBy, Step,
+    StepError,
 };
 use crate::system::Lagrangian;
 
@@ -14,6 +16,9 @@ use crate::system::Lagrangian;
 pub trait Border<L: Lagrangian<N> + ?Sized, R, const N: usize> {
     /// The border's share of the equations at a step, linearised and factored.
     type Linearized;
+
+    /// The border's share of the equation of a step that is solved with a Newton matrix of an earlier one.
+    type Underway;
 
     /// [`Flow::step`](crate::step::Flow::step).
     ///
@@ -37,6 +42,28 @@ pub trait Border<L: Lagrangian<N> + ?Sized, R, const N: usize> {
         guess: Option<&SVector<L::Scalar, N>>,
         iterations: u32,
     ) -> Result<BoundedStep<L::Scalar, N>, StepError>;
+
+    /// The border on the segment of a guess for the step, with the Newton matrix of an earlier one, `factored`;
+    /// nothing where the general way has to say why.
+    fn underway(
+        system: &L,
+        guess: &Segment<L::Scalar, N>,
+        factored: &impl Factored<L::Scalar, N>,
+    ) -> Option<Self::Underway>;
+
+    /// The residual p0 − p of the equation with its border on a segment, where `momenta` are those without,
+    /// and then those with it; the correction of v̄ is what the matrix makes of it.
+    fn residual(
+        underway: &Self::Underway,
+        system: &L,
+        segment: &Segment<L::Scalar, N>,
+        factored: &impl Factored<L::Scalar, N>,
+        p: &SVector<L::Scalar, N>,
+        momenta: &mut Momenta<L::Scalar, N>,
+    ) -> SVector<L::Scalar, N>;
+
+    /// The step that was solved for, complete; nothing where the general way has to say why.
+    fn completed(system: &L, step: Step<L::Scalar, N>, h: L::Scalar) -> Option<Step<L::Scalar, N>>;
 
     /// ∂q1/∂p0 at fixed q0, and the border's share of the equations on the `segment` of a step, where its
     /// momenta have the derivatives `k`.

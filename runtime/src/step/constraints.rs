@@ -21,6 +21,7 @@
 //! step is given F, whose root is the step on N, with the matrix W: band, guesses, damping and verdicts stay
 //! as they are, and no second derivative of g is asked for.
 
+mod bordered;
 mod columns;
 mod complement;
 mod equation;
@@ -32,13 +33,16 @@ mod rows;
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::numbers::Factored;
 use crate::step::{
-    Border, BoundedStep, ClosedForm, Discrete, LegendreDerivatives, MomentaBy, PhaseMatrix, Segment, State,
-    StateBy, Step, StepError, step_by, step_within_by,
+    Border, BoundedStep, ClosedForm, Discrete, LegendreDerivatives, Momenta, MomentaBy, PhaseMatrix, Segment,
+    State, StateBy, Step, StepError, step_by, step_within_by,
 };
 use crate::system::Constrained;
+pub use bordered::Bordered;
 use equation::OnConstraints;
 pub use linearized::Linearized;
+use nearest::{require_on, tangent};
 
 /// M constraints, [`Constrained`]: the border of a step on N = g⁻¹(0), along the constraints of velocity.
 #[derive(Clone, Copy, Debug)]
@@ -49,6 +53,7 @@ where
     L: ClosedForm<R, N> + Discrete<R, N> + Constrained<N, M>,
 {
     type Linearized = Linearized<L::Scalar, N, M>;
+    type Underway = Bordered<L::Scalar, N, M>;
 
     fn step(
         system: &L,
@@ -72,6 +77,36 @@ where
         let BoundedStep { step, converged } = step_within_by(system, &equation, state, h, guess, iterations)
             .map_err(|error| equation.explained(error))?;
         Ok(BoundedStep { step: equation.on_constraints(step, h)?, converged })
+    }
+
+    fn underway(
+        system: &L,
+        guess: &Segment<L::Scalar, N>,
+        factored: &impl Factored<L::Scalar, N>,
+    ) -> Option<Self::Underway> {
+        let (values, gradients) = system.constraint_gradients(&guess.q0);
+        require_on(&values, &gradients, &guess.q0).ok()?;
+        Bordered::of(system, guess, gradients.transpose(), factored)
+    }
+
+    #[inline]
+    fn residual(
+        underway: &Self::Underway,
+        system: &L,
+        segment: &Segment<L::Scalar, N>,
+        factored: &impl Factored<L::Scalar, N>,
+        p: &SVector<L::Scalar, N>,
+        momenta: &mut Momenta<L::Scalar, N>,
+    ) -> SVector<L::Scalar, N> {
+        let residual = underway.residual_near(system, segment, factored, momenta.p0 - p);
+        momenta.p0 = p + residual;
+        residual
+    }
+
+    fn completed(system: &L, step: Step<L::Scalar, N>, h: L::Scalar) -> Option<Step<L::Scalar, N>> {
+        let state = system.later(h, |system| tangent::<L, N, M>(system, &step.state)).ok()?;
+        state.require_reached().ok()?;
+        Some(Step { state, ..step })
     }
 
     fn linearized(

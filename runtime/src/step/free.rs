@@ -2,10 +2,11 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::numbers::Factored;
 use crate::step::equation::OfRule;
 use crate::step::{
-    Border, BorderParameters, BoundedStep, ClosedForm, Discrete, LegendreDerivatives, MomentaBy, PhaseMatrix,
-    Segment, State, StateBy, Step, StepError, invert, step_by, step_within_by,
+    Border, BorderParameters, BoundedStep, ClosedForm, Discrete, LegendreDerivatives, Momenta, MomentaBy,
+    PhaseMatrix, Segment, State, StateBy, Step, StepError, invert, step_by, step_within_by,
 };
 
 /// No border: a system without constraints.
@@ -17,6 +18,7 @@ where
     L: ClosedForm<R, N> + Discrete<R, N> + ?Sized,
 {
     type Linearized = ();
+    type Underway = ();
 
     #[inline]
     fn step(
@@ -37,6 +39,28 @@ where
         iterations: u32,
     ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
         step_within_by(system, &OfRule::<L, R>::new(system), state, h, guess, iterations)
+    }
+
+    #[inline]
+    fn underway(_: &L, _: &Segment<L::Scalar, N>, _: &impl Factored<L::Scalar, N>) -> Option<()> {
+        Some(())
+    }
+
+    #[inline]
+    fn residual(
+        (): &(),
+        _: &L,
+        _: &Segment<L::Scalar, N>,
+        _: &impl Factored<L::Scalar, N>,
+        p: &SVector<L::Scalar, N>,
+        momenta: &mut Momenta<L::Scalar, N>,
+    ) -> SVector<L::Scalar, N> {
+        momenta.p0 - p
+    }
+
+    #[inline]
+    fn completed(_: &L, step: Step<L::Scalar, N>, _: L::Scalar) -> Option<Step<L::Scalar, N>> {
+        Some(step)
     }
 
     fn linearized(

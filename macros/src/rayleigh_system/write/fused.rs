@@ -60,9 +60,11 @@ pub fn fused(
         }
     };
     let memory = match memory {
-        // The others solve a step without a border.
-        _ if system.is_constrained() => quote!(::dalembert::generated::VelocityHistory<#scalar, #n>),
         Memory::Velocities => quote!(::dalembert::generated::VelocityHistory<#scalar, #n>),
+        // A step on constraints is never explicit.
+        Memory::Explicit if system.is_constrained() => {
+            quote!(::dalembert::generated::KeptMatrix<#scalar, Self::Matrix, #n>)
+        }
         Memory::Matrix => quote!(::dalembert::generated::KeptMatrix<#scalar, Self::Matrix, #n>),
         Memory::Explicit => quote!(::dalembert::generated::ExplicitMemory<#scalar, Self::Matrix, #n>),
         Memory::OfRule(name) => {

@@ -12,8 +12,8 @@ use nalgebra::SVector;
 
 use crate::numbers::{Factored, NewtonMatrix, Scalar};
 use crate::step::{
-    ClosedForm, Discrete, Fused, KeptOf, Memory, MemoryInLanes, Momenta, Report, Segment, State, Step,
-    StepError, VelocityHistory,
+    Border, ClosedForm, Discrete, Fused, KeptOf, Memory, MemoryInLanes, Momenta, Report, Segment, State,
+    Step, StepError, VelocityHistory,
     newton::{
         AT_FLOOR, add_finite_part, estimated_floor, held_against, held_by_weights, is_sensible,
         is_small_beside, weighted,
@@ -42,6 +42,11 @@ const WORTHWHILE: u32 = 3;
 
 /// The least and the largest of these numbers of steps.
 const PAUSES: [u32; 2] = [8, 1024];
+
+/// Whether the equation is linear in v̄.
+const fn is_linear<L: Fused<R, N>, R, const N: usize>() -> bool {
+    L::LINEAR && !L::IS_CONSTRAINED
+}
 
 /// The Newton matrix of an earlier step, factored, and the latest mean velocities.
 ///
@@ -93,7 +98,7 @@ where
             && kept.h == h
         {
             let step = self.history.extrapolation(h).and_then(|guess| {
-                if L::LINEAR {
+                if is_linear::<L, R, N>() {
                     kept.linear_step(system, state, guess)
                 } else {
                     kept.step(system, state, guess)
@@ -179,7 +184,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> KeptMatrix<S, M, N> {
     where
         L: Fused<R, N, Scalar = S, Matrix = M>,
     {
-        if !L::LINEAR && self.kept.as_ref().is_some_and(|kept| kept.h == h) {
+        if !is_linear::<L, R, N>() && self.kept.as_ref().is_some_and(|kept| kept.h == h) {
             let [shortest, longest] = PAUSES;
             if self.served < WORTHWHILE {
                 (self.kept, self.pause) = (None, self.next_pause);
@@ -203,15 +208,24 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         L: Fused<R, N, Scalar = S, Matrix = M>,
     {
         let p = &state.p;
+        let first = Segment { q0: state.q, v: guess, h: self.h };
+        let underway = <L::Border as Border<L, R, N>>::underway(system, &first, &self.factored)?;
         let floor = estimated_floor(p, &self.matrix, &guess);
         let weights = floor.map(|floor| S::one() / floor);
-        let mut segment = Segment { q0: state.q, v: guess, h: self.h };
+        let mut segment = first;
         let mut correction: SVector<S, N> = nalgebra::zero();
         let mut last_size = S::constant(CLOSE) / (S::EPSILON * S::constant(CONTRACTION));
         // At least one correction: extrapolation alone, step after step, would let rounding grow.
         for iterations in 0..=MOST {
-            let momenta = system.momenta(&segment);
-            let residual = momenta.p0 - p;
+            let mut momenta = system.momenta(&segment);
+            let residual = <L::Border as Border<L, R, N>>::residual(
+                &underway,
+                system,
+                &segment,
+                &self.factored,
+                p,
+                &mut momenta,
+            );
             let size = weighted(&residual, &weights);
             if iterations > 0 && size <= S::constant(AT_FLOOR) {
                 let (residual, floor) = if is_small_beside(&residual, p) {
@@ -221,10 +235,11 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
                 }?;
                 let last_correction = correction.amax();
                 let report = Report { iterations, damped: 0, residual, floor, last_correction };
-                return Step::completed(state, self.h, segment.v, &momenta, report).ok();
+                let step = Step::completed(state, self.h, segment.v, &momenta, report).ok()?;
+                return <L::Border as Border<L, R, N>>::completed(system, step, self.h);
             }
             if !(size <= last_size * S::constant(CONTRACTION)) {
-                return if iterations > 0 {
+                return if iterations > 0 && !L::IS_CONSTRAINED {
                     self.held_up(system, state, segment.v, momenta, (iterations, correction))
                 } else {
                     None

@@ -4,14 +4,12 @@ use core::cell::{Cell, RefCell};
 
 use nalgebra::{SMatrix, SVector};
 
-use super::columns::by_columns;
-use super::complement::Complement;
+use super::bordered::Bordered;
 use super::nearest::{dependent, require_on, tangent};
-use super::rows::Rows;
-use crate::numbers::{Factored, NewtonMatrix, Scalar};
+use crate::numbers::{Factored, NewtonMatrix};
 use crate::step::equation::{OfRule, StepEquation};
-use crate::step::{ClosedForm, Discrete, Momenta, Segment, State, Step, StepError, StepKernel};
-use crate::system::Constrained;
+use crate::step::{ClosedForm, Discrete, Fused, Momenta, Segment, State, Step, StepError, StepKernel};
+use crate::system::{Constrained, Lagrangian};
 
 /// The equation F(v̄) = 0 of a step on constraints from a state (q0, p), as p + F(v̄) = p.
 pub(super) struct OnConstraints<'a, L, R, const N: usize, const M: usize>
@@ -26,28 +24,14 @@ where
     /// Whether momenta take W and S of the last kernel: of the quick method, to which the equation is all.
     is_frozen: Cell<bool>,
     /// At the v̄ at which the kernel was asked for last.
-    last: RefCell<Option<Bordered<L::Scalar, L::Matrix, N, M>>>,
+    last: RefCell<Option<Solved<L, R, N, M>>>,
 }
 
-/// W, S and the constraints.
-struct Bordered<S: Scalar, W: NewtonMatrix<S, N>, const N: usize, const M: usize> {
-    matrix: W::Factored,
-    directions: SMatrix<S, N, M>,
-    rows: Rows<S, N, M>,
-    complement: Complement<S, M>,
-}
-
-impl<S: Scalar, W: NewtonMatrix<S, N>, const N: usize, const M: usize> Bordered<S, W, N, M> {
-    /// κ = (h/2)λ of what is left, r and c.
-    fn multipliers(&self, left: &SVector<S, N>, values: &SVector<S, M>) -> SVector<S, M> {
-        self.complement.solve(&(self.rows.gradients * self.matrix.solve(left) - values))
-    }
-
-    /// F.
-    fn residual(&self, left: &SVector<S, N>, values: &SVector<S, M>) -> SVector<S, N> {
-        left - self.directions * self.multipliers(left, values)
-    }
-}
+/// W, made ready to solve with, and its border.
+type Solved<L, R, const N: usize, const M: usize> = (
+    <<L as Fused<R, N>>::Matrix as NewtonMatrix<<L as Lagrangian<N>>::Scalar, N>>::Factored,
+    Bordered<<L as Lagrangian<N>>::Scalar, N, M>,
+);
 
 impl<'a, L, R, const N: usize, const M: usize> OnConstraints<'a, L, R, N, M>
 where
@@ -62,34 +46,25 @@ where
         Ok(Self { system, free, state, directions, is_frozen: Cell::new(true), last })
     }
 
-    /// p0 and W on the segment without the constraints; and W, S and the constraints, where neither matrix is
+    /// p0 and W on the segment without the constraints; and W made ready with its border, where no matrix is
     /// singular beyond redundancy.
     #[expect(clippy::type_complexity, reason = "two values that belong together here alone")]
     fn evaluated(
         &self,
         segment: &Segment<L::Scalar, N>,
-    ) -> (StepKernel<L::Scalar, N, L::Matrix>, Option<Bordered<L::Scalar, L::Matrix, N, M>>) {
+    ) -> (StepKernel<L::Scalar, N, L::Matrix>, Option<Solved<L, R, N, M>>) {
         let kernel = self.free.kernel(segment);
-        let bordered = self.bordered(segment, &kernel.matrix, Rows::on(self.system, segment));
-        (kernel, bordered)
-    }
-
-    fn bordered(
-        &self,
-        segment: &Segment<L::Scalar, N>,
-        matrix: &L::Matrix,
-        rows: Rows<L::Scalar, N, M>,
-    ) -> Option<Bordered<L::Scalar, L::Matrix, N, M>> {
         // Where rounding is measured, q0 is moved.
         let directions = if segment.q0 == self.state.q {
             self.directions
         } else {
             self.system.constraint_gradients(&segment.q0).1.transpose()
         };
-        let matrix = matrix.factored()?;
-        let answers = by_columns(&directions, |direction| matrix.solve(direction));
-        let complement = Complement::of(&(rows.gradients * answers))?;
-        Some(Bordered { matrix, directions, rows, complement })
+        let solved = kernel.matrix.factored().and_then(|factored| {
+            let bordered = Bordered::of(self.system, segment, directions, &factored)?;
+            Some((factored, bordered))
+        });
+        (kernel, solved)
     }
 
     /// p + F with W and S of this segment, where p0 has this value.
@@ -97,16 +72,16 @@ where
     #[inline(never)]
     fn compared(&self, segment: &Segment<L::Scalar, N>, p0: &SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
         match self.evaluated(segment).1 {
-            Some(bordered) => self.state.p + bordered.residual(&(p0 - self.state.p), &bordered.rows.values),
+            Some((factored, bordered)) => self.state.p + bordered.residual(&factored, &(p0 - self.state.p)),
             None => *p0,
         }
     }
 
     /// κ = (h/2)λ on the segment of a step.
     pub(super) fn multipliers(&self, segment: &Segment<L::Scalar, N>) -> Option<SVector<L::Scalar, M>> {
-        let (kernel, bordered) = self.evaluated(segment);
-        let bordered = bordered?;
-        Some(bordered.multipliers(&(kernel.p0 - self.state.p), &bordered.rows.values))
+        let (kernel, solved) = self.evaluated(segment);
+        let (factored, bordered) = solved?;
+        Some(bordered.multipliers(&factored, &(kernel.p0 - self.state.p)))
     }
 
     /// The step with its momentum on N: G(q1)·v(q1, p1) = 0.
@@ -129,7 +104,7 @@ where
         let is_deficient = self
             .last
             .try_borrow()
-            .is_ok_and(|last| last.as_ref().is_some_and(|last| last.complement.is_deficient()));
+            .is_ok_and(|last| last.as_ref().is_some_and(|(_, last)| last.is_deficient()));
         match error {
             StepError::OffConstraint { constraint, .. } if is_deficient => {
                 StepError::DependentConstraints { constraint }
@@ -164,18 +139,18 @@ where
     type Matrix = L::Matrix;
 
     fn kernel(&self, segment: &Segment<L::Scalar, N>) -> StepKernel<L::Scalar, N, L::Matrix> {
-        let (StepKernel { p0, matrix }, bordered) = self.evaluated(segment);
-        let kernel = match &bordered {
-            Some(bordered) => {
+        let (StepKernel { p0, matrix }, solved) = self.evaluated(segment);
+        let kernel = match &solved {
+            Some((factored, bordered)) => {
                 let p = self.state.p;
-                StepKernel { p0: p + bordered.residual(&(p0 - p), &bordered.rows.values), matrix }
+                StepKernel { p0: p + bordered.residual(factored, &(p0 - p)), matrix }
             }
             // Singular itself, or the complement is: what is solved with it says so.
             None if matrix.factored().is_none() => StepKernel { p0, matrix },
             None => StepKernel { p0, matrix: NewtonMatrix::zero() },
         };
         if let Ok(mut last) = self.last.try_borrow_mut() {
-            *last = bordered;
+            *last = solved;
         }
         kernel
     }
@@ -191,10 +166,9 @@ where
             return Momenta { p0: self.compared(segment, &p0), p1 };
         }
         match self.last.try_borrow().as_deref() {
-            Ok(Some(last)) => {
-                let values = last.rows.values(self.system, segment);
+            Ok(Some((factored, bordered))) => {
                 let p = self.state.p;
-                Momenta { p0: p + last.residual(&(p0 - p), &values), p1 }
+                Momenta { p0: p + bordered.residual_near(self.system, segment, factored, p0 - p), p1 }
             }
             _ => Momenta { p0, p1 },
         }
@@ -202,7 +176,7 @@ where
 
     fn correction(&self, residual: &SVector<L::Scalar, N>) -> Option<SVector<L::Scalar, N>> {
         let last = self.last.try_borrow().ok()?;
-        last.as_ref().map(|last| last.matrix.solve(residual))
+        last.as_ref().map(|(factored, _)| factored.solve(residual))
     }
 
     fn inertia(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N> {

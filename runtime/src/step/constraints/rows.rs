@@ -10,6 +10,7 @@ use crate::system::{Constrained, ConstrainedParameters, sizes};
 const ROUNDINGS: f64 = 4.0;
 
 /// M constraints on a segment: c = g(q1)/h or ψ(q̄, v̄).
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Rows<S, const N: usize, const M: usize> {
     /// c, 0 where rounding explains it.
     pub(super) values: SVector<S, M>,

@@ -1,0 +1,70 @@
+//! The equation of a step with the constraints in it.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::columns::by_columns;
+use super::complement::Complement;
+use super::rows::Rows;
+use crate::numbers::{Factored, Scalar};
+use crate::step::Segment;
+use crate::system::Constrained;
+
+/// G(q0)ᵀ, M constraints on a segment and the Schur complement S, with a Newton matrix W.
+///
+/// F = r − G(q0)ᵀκ, κ = S⁻¹(∂c/∂v̄ W⁻¹r − c), has the same root with W and the constraints of another segment:
+/// S goes with them.
+#[derive(Clone, Copy, Debug)]
+pub struct Bordered<S: Scalar, const N: usize, const M: usize> {
+    directions: SMatrix<S, N, M>,
+    rows: Rows<S, N, M>,
+    complement: Complement<S, M>,
+}
+
+impl<S: Scalar, const N: usize, const M: usize> Bordered<S, N, M> {
+    /// With W `factored`; nothing if an entry is not finite.
+    pub(super) fn of<L>(
+        system: &L,
+        segment: &Segment<S, N>,
+        directions: SMatrix<S, N, M>,
+        factored: &impl Factored<S, N>,
+    ) -> Option<Self>
+    where
+        L: Constrained<N, M, Scalar = S>,
+    {
+        let rows = Rows::on(system, segment);
+        let answers = by_columns(&directions, |direction| factored.solve(direction));
+        let complement = Complement::of(&(rows.gradients * answers))?;
+        Some(Self { directions, rows, complement })
+    }
+
+    /// Whether constraints are redundant, or singular.
+    pub(super) fn is_deficient(&self) -> bool {
+        self.complement.is_deficient()
+    }
+
+    /// κ of what is `left` without constraints on the segment itself.
+    pub(super) fn multipliers(&self, factored: &impl Factored<S, N>, left: &SVector<S, N>) -> SVector<S, M> {
+        self.complement.solve(&(self.rows.gradients * factored.solve(left) - self.rows.values))
+    }
+
+    /// F on the segment itself.
+    pub(super) fn residual(&self, factored: &impl Factored<S, N>, left: &SVector<S, N>) -> SVector<S, N> {
+        left - self.directions * self.multipliers(factored, left)
+    }
+
+    /// F on another segment.
+    pub(super) fn residual_near<L>(
+        &self,
+        system: &L,
+        segment: &Segment<S, N>,
+        factored: &impl Factored<S, N>,
+        left: SVector<S, N>,
+    ) -> SVector<S, N>
+    where
+        L: Constrained<N, M, Scalar = S>,
+    {
+        let values = self.rows.values(system, segment);
+        let off = self.rows.gradients * factored.solve(&left) - values;
+        left - self.directions * self.complement.solve(&off)
+    }
+}
