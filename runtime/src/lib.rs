@@ -239,7 +239,7 @@ mod attributes {
 /// ```
 ///
 /// A, B and derivatives by parameters are those of the step that [`State::nearest`] extends to states off the
-/// constraints, 2N×2N. Constraints do not go with Gauss rules, lanes, `to_error`, `time_scale` and
+/// constraints, 2N×2N. Constraints do not go with Gauss rules, lanes, `time_scale` and
 /// `step_derivatives`, nor with the checkers of the theory.
 ///
 /// # Rules

@@ -65,6 +65,9 @@ pub trait Border<L: Lagrangian<N> + ?Sized, R, const N: usize> {
     /// The step that was solved for, complete; nothing where the general way has to say why.
     fn completed(system: &L, step: Step<L::Scalar, N>, h: L::Scalar) -> Option<Step<L::Scalar, N>>;
 
+    /// The state that the border allows and that is nearest; nothing where there is none in reach.
+    fn nearest(system: &L, state: &State<L::Scalar, N>) -> Option<State<L::Scalar, N>>;
+
     /// ∂q1/∂p0 at fixed q0, and the border's share of the equations on the `segment` of a step, where its
     /// momenta have the derivatives `k`.
     ///

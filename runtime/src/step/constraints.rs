@@ -109,6 +109,11 @@ where
         Some(Step { state, ..step })
     }
 
+    fn nearest(system: &L, state: &State<L::Scalar, N>) -> Option<State<L::Scalar, N>> {
+        let v = state.velocity(system).ok()?;
+        State::nearest(system, state.q, v).ok()
+    }
+
     fn linearized(
         system: &L,
         segment: &Segment<L::Scalar, N>,

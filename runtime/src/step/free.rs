@@ -63,6 +63,11 @@ where
         Some(step)
     }
 
+    #[inline]
+    fn nearest(_: &L, state: &State<L::Scalar, N>) -> Option<State<L::Scalar, N>> {
+        Some(*state)
+    }
+
     fn linearized(
         _: &L,
         _: &Segment<L::Scalar, N>,

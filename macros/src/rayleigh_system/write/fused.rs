@@ -174,10 +174,8 @@ fn cancelling_terms(system: &System<'_>, rule: Rule) -> TokenStream {
 
 /// `impl OffersMethods<2> for Ring`: what an error can be asked of.
 pub fn offered_methods(system: &System<'_>, is_explicit: bool) -> Option<TokenStream> {
-    if system.is_constrained() {
-        return None;
-    }
     let mut rules = system.rules.of_displacement.iter();
+    let is_explicit = is_explicit && !system.is_constrained();
     let rule =
         rules.find(|rule| if is_explicit { rule.may_be_explicit() } else { rule.entry().is_self_adjoint });
     let rule = rule?.ident();

@@ -190,34 +190,42 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
     }
 
     /// By how much the force at the state last looked at is another at `time`.
-    pub(super) fn change_of_force<L>(&mut self, system: &L, time: f64) -> f64
+    pub(super) fn change_of_force<L, M>(&mut self, (system, methods): (&L, M), time: f64) -> f64
     where
         L: ActingForce<N, Scalar = S>,
+        M: Methods<L, N>,
     {
         let Some((last, _)) = &self.last else { return 0.0 };
         self.evaluations += 1.0;
-        system.later(S::constant(time), |later| last.change_of_force(later))
+        system.later(S::constant(time), |later| last.change_of_force((later, methods)))
     }
 
     /// The motion at `state`.
-    fn variation<L>(&mut self, system: &L, state: &State<S, N>, time: f64) -> Option<Variation<S, N>>
+    fn variation<L, M>(
+        &mut self,
+        (system, methods): (&L, M),
+        state: &State<S, N>,
+        time: f64,
+    ) -> Option<Variation<S, N>>
     where
         L: ActingForce<N, Scalar = S>,
+        M: Methods<L, N>,
     {
-        self.evaluations += 2.0;
+        self.evaluations += of_variation::<L, N>();
         let guess = self.last.map(|(last, _)| last.velocity_at(state));
         system.later(S::constant(time), |system| {
-            let near = guess.and_then(|guess| Variation::at(system, state, &guess));
-            near.or_else(|| Variation::at(system, state, &state.velocity(system).ok()?))
+            let near = guess.and_then(|guess| Variation::at((system, methods), state, &guess));
+            near.or_else(|| Variation::at((system, methods), state, &state.velocity(system).ok()?))
         })
     }
 
     /// Goes on from `state` at `time`, where the system has become another.
-    pub(super) fn resume<L>(&mut self, system: &L, state: &State<S, N>, time: f64)
+    pub(super) fn resume<L, M>(&mut self, motion: (&L, M), state: &State<S, N>, time: f64)
     where
         L: ActingForce<N, Scalar = S>,
+        M: Methods<L, N>,
     {
-        if let Some(variation) = self.variation(system, state, time) {
+        if let Some(variation) = self.variation(motion, state, time) {
             self.last = Some((variation, time));
         }
         self.speed = f64::INFINITY;
@@ -225,24 +233,25 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
 
     /// Carries the error on to `state` at `time`. An error of the energy beyond what is foreseen stands for
     /// others besides, of a step that was not looked at.
-    pub(super) fn carry<L>(
+    pub(super) fn carry<L, M>(
         &mut self,
-        system: &L,
+        motion: (&L, M),
         state: &State<S, N>,
         time: f64,
         scale: &Scale<S, N>,
         since: &Since<S, N>,
     ) where
         L: ActingForce<N, Scalar = S>,
+        M: Methods<L, N>,
     {
-        let Some(variation) = self.variation(system, state, time) else { return };
+        let Some(variation) = self.variation(motion, state, time) else { return };
         let unit = variation.of_unit_energy(scale);
         if let Some((last, before)) = self.last {
-            self.transport(system, [&last, &variation], [before, time], &unit, scale, since);
+            self.transport(motion, [&last, &variation], [before, time], &unit, scale, since);
         }
         let elapsed = time - self.last.map_or(0.0, |last| last.1);
         if self.is_timed && self.last.is_none() {
-            self.drive = self.driven(system, &variation, since.ahead);
+            self.drive = self.driven(motion, &variation, since.ahead);
         }
         let rounding = rounding(&variation, state, scale, elapsed, since);
         self.rounding = nalgebra::ComplexField::hypot(self.rounding, scale.norm(&rounding));
@@ -255,10 +264,10 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         if self.is_timed || variation.is_forced {
             self.energy = None;
         } else if self.last.is_none() {
-            self.energy = Some([variation.energy(system), S::zero()]);
+            self.energy = Some([variation.energy(motion.0), S::zero()]);
         } else if let (Some([start, error]), true) = (self.energy, since.is_energy) {
             self.evaluations += 3.0;
-            let now = variation.energy(system) - start;
+            let now = variation.energy(motion.0) - start;
             self.energy = Some([start, now]);
             let made = scale.norm(&unit) * nalgebra::ComplexField::abs((now - error).widen());
             if made > UNFORESEEN * since.foreseen + 4.0 * self.rounding {
@@ -274,13 +283,19 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
 
     /// How J changes with time at the state where the run starts, over the time `ahead`; `None` where it does
     /// not.
-    fn driven<L>(&mut self, system: &L, start: &Variation<S, N>, ahead: f64) -> Option<Drive<S, N>>
+    fn driven<L, M>(
+        &mut self,
+        (system, methods): (&L, M),
+        start: &Variation<S, N>,
+        ahead: f64,
+    ) -> Option<Drive<S, N>>
     where
         L: ActingForce<N, Scalar = S>,
+        M: Methods<L, N>,
     {
         let is_other = DRIVES.into_iter().any(|share| {
-            self.evaluations += 2.0;
-            let later = |system: &L| start.in_time(system);
+            self.evaluations += of_variation::<L, N>();
+            let later = |system: &L| start.in_time((system, methods));
             let later = system.later(S::constant(share * ahead), later);
             later.is_none_or(|later| start.is_another(&later))
         });
@@ -288,9 +303,9 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
     }
 
     /// The errors `from` one state `to` another: where they turn far, by way of states between.
-    fn transport<L>(
+    fn transport<L, M>(
         &mut self,
-        system: &L,
+        (system, methods): (&L, M),
         [last, to]: [&Variation<S, N>; 2],
         [before, time]: [f64; 2],
         unit: &State<S, N>,
@@ -298,6 +313,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         since: &Since<S, N>,
     ) where
         L: ActingForce<N, Scalar = S>,
+        M: Methods<L, N>,
     {
         let size = scale.norm(&self.error);
         let t = S::constant(time - before);
@@ -328,8 +344,8 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
             let share = S::constant(share / parts);
             let state = last.between(to, t, share, is_timed);
             let guess = from.velocity_at(&state);
-            *evaluations += 2.0;
-            let at = |system: &L| Variation::at(system, &state, &guess);
+            *evaluations += of_variation::<L, N>();
+            let at = |system: &L| Variation::at((system, methods), &state, &guess);
             let found = system.later(S::constant(before) + share * t, at);
             if let (Some(drive), Some(found)) = (drive.as_mut(), &found) {
                 drive.follow([from, found], after);
@@ -378,6 +394,11 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         let sizes = [&self.error, a, b].map(|error| scale.largest(&self.over_a_turn(error, scale)));
         nalgebra::ComplexField::sqrt(sizes.map(|size| size * size).iter().sum::<f64>())
     }
+}
+
+/// The cost of the motion at one state, in evaluations: on constraints that of two steps.
+fn of_variation<L: Lagrangian<N>, const N: usize>() -> f64 {
+    if L::IS_CONSTRAINED { 24.0 } else { 2.0 }
 }
 
 /// The rounding error of the state over some steps: of q and p by their own rounding, and of p by that of the

@@ -117,7 +117,7 @@ where
     M: Methods<L, N>,
 {
     pub(super) fn new(choice: Choice<'a, L, M, N>, [step, half]: [M::Step; 2], is_on: bool) -> Self {
-        let Choice { system, chosen, .. } = choice;
+        let Choice { system, methods, chosen } = choice;
         let (start, scale) = (chosen.start, Scale::new(&chosen.start));
         let is_coarse = N > RESOLVED && derivatives(N) > chosen.evaluations_per_step;
         let mut estimate = Estimate::new(system, is_coarse);
@@ -131,7 +131,7 @@ where
             is_energy: true,
             ahead,
         };
-        estimate.carry(system, &start, 0.0, &scale, &none);
+        estimate.carry((system, methods), &start, 0.0, &scale, &none);
         let segment = chosen.first_segment();
         let guard = Guard {
             estimate,
@@ -305,7 +305,7 @@ where
         if !self.guard.is_on {
             return;
         }
-        self.guard.estimate.resume(self.choice.system, &self.guard.state, next.from());
+        self.guard.estimate.resume((self.choice.system, self.choice.methods), &self.guard.state, next.from());
         self.guard.roughness = 0.0;
         self.guard.stroke = 0.0;
         self.guard.unresolved = Unresolved::new();

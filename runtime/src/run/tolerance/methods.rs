@@ -7,7 +7,7 @@ use crate::rules::{Fitted, FittedTrapezoidal, Gauss, Midpoint, SelfAdjoint, Solv
 use crate::run::between::beginning;
 use crate::run::{Composition, Explicit, Splitting};
 use crate::step::flow::velocity;
-use crate::step::{Flow, Fused, Memory, State, Step, StepError};
+use crate::step::{Border, Flow, Fused, LinearizedStep, Memory, State, Step, StepError};
 use crate::system::{ActingForce, ForcedLagrangian, Lagrangian};
 
 /// The methods that a system offers to [`Method::for_tolerance`]: a rule of order 2 stands for itself and its
@@ -21,6 +21,17 @@ pub trait Methods<L: ActingForce<N>, const N: usize>: Copy {
 
     /// The step of size `h` by `method`; nothing where the method is none of these.
     fn step(self, method: Method, h: L::Scalar) -> Option<Self::Step>;
+
+    /// The step of size `h` by the rule, with its derivative; nothing where it has none.
+    fn linearized(
+        self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Option<LinearizedStep<L::Scalar, N>>;
+
+    /// The state on the constraints that is nearest, of a system without any the state itself.
+    fn nearest(self, system: &L, state: &State<L::Scalar, N>) -> Option<State<L::Scalar, N>>;
 }
 
 /// A step taken, and what it cost.
@@ -220,7 +231,7 @@ impl<L: Fused<R, N> + Flow<R, N>, R: SelfAdjoint, const N: usize> MethodStep<L, 
         };
         let iterations = f64::from(step.report.iterations);
         // An explicit step is one iteration with its verdict: two evaluations' worth, of which one is made.
-        let evaluations = if L::LINEAR {
+        let evaluations = if L::LINEAR && !L::IS_CONSTRAINED {
             let more = (iterations - substeps).max(0.0);
             2.0 * substeps + (2.0 * ITERATION - 1.0) * more
         } else {
@@ -262,6 +273,19 @@ macro_rules! rules {
                     Method::KahanLi8 => Some(Composed::KahanLi8(OfSize::new(h))),
                     _ => None,
                 }
+            }
+
+            fn linearized(
+                self,
+                system: &L,
+                state: &State<L::Scalar, N>,
+                h: L::Scalar,
+            ) -> Option<LinearizedStep<L::Scalar, N>> {
+                Flow::<Self, N>::linearized_step(system, state, h, None).ok()
+            }
+
+            fn nearest(self, system: &L, state: &State<L::Scalar, N>) -> Option<State<L::Scalar, N>> {
+                <L::Border as Border<L, Self, N>>::nearest(system, state)
             }
         }
     )*};
@@ -330,6 +354,19 @@ macro_rules! added {
                     $(Method::$method => Some($or::$method(OfSize::new(h))),)*
                     _ => self.0.step(method, h).map($or::Other),
                 }
+            }
+
+            fn linearized(
+                self,
+                system: &L,
+                state: &State<L::Scalar, N>,
+                h: L::Scalar,
+            ) -> Option<LinearizedStep<L::Scalar, N>> {
+                self.0.linearized(system, state, h)
+            }
+
+            fn nearest(self, system: &L, state: &State<L::Scalar, N>) -> Option<State<L::Scalar, N>> {
+                self.0.nearest(system, state)
             }
         }
     };

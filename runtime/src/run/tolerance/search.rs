@@ -221,7 +221,7 @@ where
             spent: 4.0,
         };
         start.spent += 2.0;
-        if let Some(variation) = Variation::at(system, &state, &velocity) {
+        if let Some(variation) = Variation::at((system, methods), &state, &velocity) {
             start.fastest = variation.fastest.widen().max(1.0 / time);
             start.weight = variation.matrix.q_by_p.norm().widen() / start.fastest;
             start.reach = start.reach_of(&variation);
@@ -229,7 +229,7 @@ where
         if is_timed(system) {
             for share in DRIVES {
                 start.spent += 2.0;
-                let at = |system: &L| Variation::at(system, &state, &velocity);
+                let at = |system: &L| Variation::at((system, methods), &state, &velocity);
                 if let Some(variation) = system.later(L::Scalar::constant(share * time), at) {
                     start.reach = start.reach.max(start.reach_of(&variation));
                 }
@@ -245,13 +245,14 @@ where
             return Ok(());
         }
         let zero = nalgebra::SVector::zeros();
-        let Some(rest) = Variation::at(self.system, &self.state, &zero) else { return Ok(()) };
+        let methods = self.methods;
+        let Some(rest) = Variation::at((self.system, methods), &self.state, &zero) else { return Ok(()) };
         let (mut seen, mut is_driven) = (0, false);
         let mut random = Random::new(0x5851_f42d_4c95_7f2d);
         for look in 0..LOOKS {
             self.spent += 2.0;
             let within = (f64::from(look) + random.unit()) / f64::from(LOOKS);
-            let at = |system: &L| rest.in_time(system);
+            let at = |system: &L| rest.in_time((system, methods));
             let Some(later) = self.system.later(L::Scalar::constant(within * self.time), at) else {
                 continue;
             };
@@ -278,7 +279,7 @@ where
         let Hardest { state, elapsed, .. } = passage;
         self.spent += 2.0;
         let variation = self.system.later(L::Scalar::constant(elapsed), |system| {
-            Variation::at(system, &state, &state.velocity(system).ok()?)
+            Variation::at((system, self.methods), &state, &state.velocity(system).ok()?)
         });
         self.fastest = variation.map_or(0.0, |variation| variation.fastest.widen()).max(self.fastest);
         self.passage = Some(passage);

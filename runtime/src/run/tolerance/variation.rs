@@ -13,6 +13,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::Methods;
 use super::phase::{norm_and_ratio, plus, times};
 use super::scale::Scale;
 use crate::numbers::Scalar;
@@ -40,12 +41,77 @@ pub(super) struct Variation<S: Scalar, const N: usize> {
 /// The root of a share of J that is no more than rounding.
 const SLIGHTEST: f64 = 1e-4;
 
+/// Angles by which the fastest mode turns in the steps that tell of the motion on constraints: as they are made,
+/// and at most; and how often they are made shorter.
+const SHORT: f64 = 1e-4;
+const LONGEST: f64 = 1e-3;
+const ATTEMPTS: u32 = 6;
+
 /// A velocity that Newton's method changes by less than this share is that of the state.
 const VELOCITY: f64 = 1e-3;
 
 impl<S: Scalar, const N: usize> Variation<S, N> {
     /// At `state`, with a guess for the velocity. Nothing where the derivatives do not exist.
-    pub(super) fn at<L>(system: &L, state: &State<S, N>, guess: &SVector<S, N>) -> Option<Self>
+    pub(super) fn at<L, M>(
+        (system, methods): (&L, M),
+        state: &State<S, N>,
+        guess: &SVector<S, N>,
+    ) -> Option<Self>
+    where
+        L: ActingForce<N, Scalar = S>,
+        M: Methods<L, N>,
+    {
+        let free = Self::by_derivatives(system, state, guess)?;
+        if L::IS_CONSTRAINED { free.on_constraints((system, methods)) } else { Some(free) }
+    }
+
+    /// On constraints, by two steps of the rule, forwards and backwards: their ends y(±τ) and derivatives A(±τ)
+    /// hold the reactions, ẏ = (y(τ) − y(−τ))/2τ and J = (A(τ) − A(−τ))/2τ up to (τJ)².
+    fn on_constraints<L, M>(self, (system, methods): (&L, M)) -> Option<Self>
+    where
+        L: ActingForce<N, Scalar = S>,
+        M: Methods<L, N>,
+    {
+        // Off the constraints by what states between are known to.
+        let state = methods.nearest(system, &self.at)?;
+        let turns = self.rate.q.amax() / (state.q.amax() + S::SMALLEST_NORMAL);
+        let mut tau = S::constant(SHORT) / (self.fastest + turns);
+        for _ in 0..ATTEMPTS {
+            let ends = [tau, -tau].map(|tau| methods.linearized(system, &state, tau));
+            let [Some((ahead, a)), Some((behind, b))] = ends else {
+                tau *= S::constant(SHORT);
+                continue;
+            };
+            let share = S::constant(0.5) / tau;
+            let between = |x: &SVector<S, N>, y: &SVector<S, N>| (x - y) * share;
+            let slope = |x: &SMatrix<S, N, N>, y: &SMatrix<S, N, N>| (x - y) * share;
+            let matrix = PhaseMatrix {
+                q_by_q: slope(&a.q_by_q, &b.q_by_q),
+                q_by_p: slope(&a.q_by_p, &b.q_by_p),
+                p_by_q: slope(&a.p_by_q, &b.p_by_q),
+                p_by_p: slope(&a.p_by_p, &b.p_by_p),
+            };
+            let [fastest, impedance] = norm_and_ratio(&matrix);
+            if !fastest.is_finite() {
+                return None;
+            }
+            // What turns faster than was thought is looked at more closely.
+            if fastest * tau > S::constant(LONGEST) {
+                tau = S::constant(SHORT) / fastest;
+                continue;
+            }
+            let rate = State {
+                q: between(&ahead.state.q, &behind.state.q),
+                p: between(&ahead.state.p, &behind.state.p),
+            };
+            let impedance = if impedance.is_finite() { impedance.widen() } else { 0.0 };
+            // A reaction takes part in ṗ, which is no gradient of the energy then.
+            return Some(Self { rate, matrix, fastest, impedance, at: state, is_forced: true });
+        }
+        None
+    }
+
+    fn by_derivatives<L>(system: &L, state: &State<S, N>, guess: &SVector<S, N>) -> Option<Self>
     where
         L: ActingForce<N, Scalar = S>,
     {
@@ -90,9 +156,10 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
     }
 
     /// At the same state of `later`, the system at another time.
-    pub(super) fn in_time<L>(&self, later: &L) -> Option<Self>
+    pub(super) fn in_time<L, M>(&self, later: (&L, M)) -> Option<Self>
     where
         L: ActingForce<N, Scalar = S>,
+        M: Methods<L, N>,
     {
         Self::at(later, &self.at, &self.rate.q)
     }
@@ -175,10 +242,15 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
     }
 
     /// By how much ṗ at this state is another in `later`, the system at another time.
-    pub(super) fn change_of_force<L>(&self, later: &L) -> f64
+    pub(super) fn change_of_force<L, M>(&self, (later, methods): (&L, M)) -> f64
     where
         L: ActingForce<N, Scalar = S>,
+        M: Methods<L, N>,
     {
+        if L::IS_CONSTRAINED {
+            let later = self.in_time((later, methods));
+            return later.map_or(f64::INFINITY, |later| (later.rate.p - self.rate.p).amax().widen());
+        }
         let (q, v) = (&self.at.q, &self.rate.q);
         (later.lagrangian_gradient(q, v).d1 + later.acting_force(q, v) - self.rate.p).amax().widen()
     }

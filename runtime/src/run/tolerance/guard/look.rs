@@ -40,7 +40,7 @@ where
     /// Carries the error on to the present state.
     pub(super) fn carry(&mut self) {
         let steps = (self.guard.taken - self.guard.carried[0]) as f64;
-        let Choice { system, chosen, .. } = self.choice;
+        let Choice { system, methods, chosen } = self.choice;
         let Chosen { roundings, .. } = chosen;
         let is_energy = self.choice.chosen.steps < FEW
             || self.guard.taken <= STRIDE
@@ -59,7 +59,7 @@ where
             ahead: chosen.time - self.time(),
         };
         let time = self.time();
-        self.guard.estimate.carry(system, &self.guard.state, time, &self.guard.scale, &since);
+        self.guard.estimate.carry((system, methods), &self.guard.state, time, &self.guard.scale, &since);
         self.guard.carried[2] = self.guard.carried[0];
         self.guard.carried[0] = self.guard.taken;
         self.schedule_derivatives();

@@ -85,7 +85,7 @@ where
     /// Whether the force, where it changes with time, has done so within the last step as it did not before:
     /// between the nodes of the step.
     pub(super) fn is_struck(&mut self) -> bool {
-        let Choice { system, chosen, .. } = self.choice;
+        let Choice { system, methods, chosen } = self.choice;
         let Chosen { tolerance, evaluations_per_step, is_watchful, .. } = chosen;
         let step_size = self.step_size();
         let is_seldom = !is_watchful
@@ -97,7 +97,7 @@ where
         // In the middle of the step, and where it ends: what strikes there is shared by two steps.
         let change = [0.5, 0.0].map(|share| {
             let time = self.time() - share * step_size;
-            self.guard.estimate.change_of_force(system, time)
+            self.guard.estimate.change_of_force((system, methods), time)
         });
         let change = change[0].max(change[1]);
         let is_more = change > ROUGHER * self.guard.stroke;
