@@ -64,7 +64,7 @@ where
 /// ∫ℓ_j, the others the cubic through (q, v) at both ends. Where the run has structure to keep, the state
 /// between should be asked of [`state_at`](Self::state_at): a step keeps what steps keep, a polynomial does
 /// not.
-pub struct Dense<'t, T: Divisible<N>, const N: usize> {
+pub struct Dense<'t, T: Divisible<N> + ?Sized, const N: usize> {
     run: &'t mut T,
     start: Option<Start<T::Scalar, N>>,
 }
@@ -83,13 +83,13 @@ pub(super) struct Start<S, const N: usize> {
 /// The nodes of the cubic.
 const OF_CUBIC: &[f64] = &Gauss::<2>::NODES;
 
-impl<'t, T: Divisible<N>, const N: usize> Dense<'t, T, N> {
+impl<'t, T: Divisible<N> + ?Sized, const N: usize> Dense<'t, T, N> {
     pub(in crate::run) fn of(run: &'t mut T) -> Self {
         Self { run, start: None }
     }
 }
 
-impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
+impl<T: Divisible<N> + ?Sized, const N: usize> Dense<'_, T, N> {
     /// Whether the method has a polynomial of its own that is better than the cubic through both ends.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn is_collocated(&self) -> bool {
@@ -240,7 +240,7 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
         let (system, since, h) = (self.run.system(), self.run.since(), start.size);
         let time = |share: f64| start.time + share * h.widen();
         if self.is_collocated() {
-            self.run.at_nodes(&start.state.q, h, |i, q, v| {
+            self.run.last_step().at_nodes(&start.state.q, h, &mut |i, q, v| {
                 let share = self.nodes().get(i).copied().unwrap_or(1.0);
                 visit(i, &Moment::interpolated(system, [time(share), since], *q, *v));
             });
@@ -288,7 +288,7 @@ impl<T: Restartable<N>, const N: usize> Dense<'_, T, N> {
     }
 }
 
-impl<T: Divisible<N>, const N: usize> Iterator for Dense<'_, T, N> {
+impl<T: Divisible<N> + ?Sized, const N: usize> Iterator for Dense<'_, T, N> {
     type Item = Result<Step<T::Scalar, N>, StepError>;
 
     #[inline]

@@ -167,7 +167,7 @@ where
         self.run.step_size()
     }
 
-    fn last(&self) -> &dyn LastStep<L, N> {
+    fn last_step(&self) -> &dyn LastStep<L, N> {
         &self.run.memory
     }
 }

@@ -27,13 +27,13 @@ pub trait Divisible<const N: usize>: Run<N> {
     fn step_size(&self) -> Self::Scalar;
 
     /// The last step, as the method remembers it.
-    fn last(&self) -> &dyn LastStep<Self::System, N>;
+    fn last_step(&self) -> &dyn LastStep<Self::System, N>;
 
     /// Shares of a step at which the method itself knows q and v
     /// ([`Memory::NODES`](crate::step::Memory::NODES)).
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn nodes(&self) -> &'static [f64] {
-        self.last().nodes()
+        self.last_step().nodes()
     }
 
     /// Calls `visit` with q and v at the nodes of the last step, of size `h`, which led from `q0`.
@@ -43,8 +43,10 @@ pub trait Divisible<const N: usize>: Run<N> {
         q0: &SVector<Self::Scalar, N>,
         h: Self::Scalar,
         mut visit: impl FnMut(usize, &SVector<Self::Scalar, N>, &SVector<Self::Scalar, N>),
-    ) {
-        self.last().at_nodes(q0, h, &mut visit);
+    ) where
+        Self: Sized,
+    {
+        self.last_step().at_nodes(q0, h, &mut visit);
     }
 
     /// (q, v) at a share of the last step, of size `h`, which led from `q0`, by the method's own polynomial.
@@ -54,7 +56,7 @@ pub trait Divisible<const N: usize>: Run<N> {
         h: Self::Scalar,
         share: f64,
     ) -> Option<[SVector<Self::Scalar, N>; 2]> {
-        self.last().between(q0, h, share)
+        self.last_step().between(q0, h, share)
     }
 
     /// The velocity of a state of the run at that time.
@@ -67,7 +69,7 @@ pub trait Divisible<const N: usize>: Run<N> {
         time: f64,
         state: &State<Self::Scalar, N>,
     ) -> Result<SVector<Self::Scalar, N>, StepError> {
-        self.last().velocity(self.system(), time - self.since(), state)
+        self.last_step().velocity(self.system(), time - self.since(), state)
     }
 
     /// Where a step leads from where the last one began: `state` at `time`, `mean` being the mean velocity of
@@ -82,7 +84,7 @@ pub trait Divisible<const N: usize>: Run<N> {
         mean: &SVector<Self::Scalar, N>,
         sizes: [Self::Scalar; 2],
     ) -> Result<State<Self::Scalar, N>, StepError> {
-        self.last().beginning(self.system(), time - self.since(), state, mean, sizes)
+        self.last_step().beginning(self.system(), time - self.since(), state, mean, sizes)
     }
 }
 
@@ -114,7 +116,7 @@ where
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn last(&self) -> &dyn LastStep<L, N> {
+    fn last_step(&self) -> &dyn LastStep<L, N> {
         &self.run.memory
     }
 }

@@ -66,7 +66,7 @@ where
         L::Scalar::constant(self.step_size())
     }
 
-    fn last(&self) -> &dyn LastStep<L, N> {
+    fn last_step(&self) -> &dyn LastStep<L, N> {
         self.last()
     }
 }
