@@ -35,5 +35,5 @@ pub use held_input::{Carried, HeldInput, InPeriod, Period, Sensitivities};
 pub use lanes::ExplicitInLanes;
 pub use memory::{DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, VelocityHistory};
 pub use sample::{Run, Sample, Samples};
-pub use splitting::Splitting;
+pub use splitting::{CompensatedSums, PlainSums, Splitting, Sums};
 pub use trajectory::Trajectory;
