@@ -135,8 +135,11 @@ impl<T: Divisible<N> + ?Sized, const N: usize> Dense<'_, T, N> {
     pub fn interpolated_at(&self, time: f64) -> Result<Moment<'_, T::System, N>, TimeError> {
         let start = self.start_before(time)?;
         let share = (time - start.time) / start.size.widen();
-        let of_method =
-            if self.is_collocated() { self.run.between(&start.state.q, start.size, share) } else { None };
+        let of_method = if self.is_collocated() {
+            self.run.last_step().between(&start.state.q, start.size, share)
+        } else {
+            None
+        };
         let [q, v] = match of_method {
             Some(at) => at,
             None => {
@@ -180,7 +183,8 @@ impl<T: Divisible<N> + ?Sized, const N: usize> Dense<'_, T, N> {
         if elapsed == T::Scalar::constant(0.0) {
             return Ok(start.state);
         }
-        self.run.beginning(start.time, &start.state, &start.mean, [start.size, elapsed])
+        let (system, begun) = (self.system(), start.time - self.since());
+        self.run.last_step().beginning(system, begun, &start.state, &start.mean, [start.size, elapsed])
     }
 
     /// The time of the run at which the system has its own.
@@ -196,7 +200,7 @@ impl<T: Divisible<N> + ?Sized, const N: usize> Dense<'_, T, N> {
         time: f64,
         state: &State<T::Scalar, N>,
     ) -> Result<SVector<T::Scalar, N>, StepError> {
-        self.run.velocity(time, state)
+        self.run.last_step().velocity(self.system(), time - self.since(), state)
     }
 
     /// Calls `visit` with moments on the chord of the last step, by its mean velocity.

@@ -1,10 +1,8 @@
 //! Runs whose steps can be looked into.
 
-use nalgebra::SVector;
-
 use super::LastStep;
 use crate::run::{Run, TakenUntil, Trajectory};
-use crate::step::{Flow, State, StepError};
+use crate::step::{Flow, State};
 use crate::system::Lagrangian;
 
 /// A run whose last step can be looked into: a [`Trajectory`], one that carries its error along
@@ -34,57 +32,6 @@ pub trait Divisible<const N: usize>: Run<N> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn nodes(&self) -> &'static [f64] {
         self.last_step().nodes()
-    }
-
-    /// Calls `visit` with q and v at the nodes of the last step, of size `h`, which led from `q0`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn at_nodes(
-        &self,
-        q0: &SVector<Self::Scalar, N>,
-        h: Self::Scalar,
-        mut visit: impl FnMut(usize, &SVector<Self::Scalar, N>, &SVector<Self::Scalar, N>),
-    ) where
-        Self: Sized,
-    {
-        self.last_step().at_nodes(q0, h, &mut visit);
-    }
-
-    /// (q, v) at a share of the last step, of size `h`, which led from `q0`, by the method's own polynomial.
-    fn between(
-        &self,
-        q0: &SVector<Self::Scalar, N>,
-        h: Self::Scalar,
-        share: f64,
-    ) -> Option<[SVector<Self::Scalar, N>; 2]> {
-        self.last_step().between(q0, h, share)
-    }
-
-    /// The velocity of a state of the run at that time.
-    ///
-    /// # Errors
-    /// Those of [`State::velocity`].
-    #[inline]
-    fn velocity(
-        &self,
-        time: f64,
-        state: &State<Self::Scalar, N>,
-    ) -> Result<SVector<Self::Scalar, N>, StepError> {
-        self.last_step().velocity(self.system(), time - self.since(), state)
-    }
-
-    /// Where a step leads from where the last one began: `state` at `time`, `mean` being the mean velocity of
-    /// that, `sizes` its size and that of this one.
-    ///
-    /// # Errors
-    /// Those of the step.
-    fn beginning(
-        &self,
-        time: f64,
-        state: &State<Self::Scalar, N>,
-        mean: &SVector<Self::Scalar, N>,
-        sizes: [Self::Scalar; 2],
-    ) -> Result<State<Self::Scalar, N>, StepError> {
-        self.last_step().beginning(self.system(), time - self.since(), state, mean, sizes)
     }
 }
 
