@@ -9,6 +9,7 @@ use std::{env, fs};
 
 use anyhow::{Context, Result, ensure};
 use dalembert::nalgebra::SVector;
+use dalembert::run::Sums;
 use dalembert::step::FlowInLanes;
 use dalembert::{Discretise, Gauss, Lagrangian, Splitting, State, StepError};
 use dalembert_ensemble::{Cancelled, Ensemble};
@@ -246,8 +247,7 @@ trait CandidatesInLanes<'a, S, const N: usize> {
     fn candidates(self, name: &'static str, runs: &Runs<'a, S, N>) -> Vec<Goal<'a, N>>;
 }
 
-impl<'a, S, const N: usize, const K: usize, const COMPENSATED: bool> CandidatesInLanes<'a, S, N>
-    for Splitting<K, COMPENSATED>
+impl<'a, S, const N: usize, const K: usize, C: Sums> CandidatesInLanes<'a, S, N> for Splitting<K, C>
 where
     S: FlowInLanes<Self, N> + Lagrangian<N, Scalar = f64> + Copy + Send + Sync + 'a,
 {

@@ -10,8 +10,8 @@ use nalgebra::SVector;
 use crate::numbers::Scalar;
 use crate::rules::Gauss;
 use crate::run::Trajectory;
+pub use crate::run::last_step::LastStep;
 use crate::step::{Flow, State, Step, StepError};
-pub(in crate::run) use divisible::beginning;
 pub use divisible::{Divisible, Restartable};
 pub use moment::Moment;
 pub use times::{SampledAt, TimeError};
@@ -64,7 +64,7 @@ where
 /// ∫ℓ_j, the others the cubic through (q, v) at both ends. Where the run has structure to keep, the state
 /// between should be asked of [`state_at`](Self::state_at): a step keeps what steps keep, a polynomial does
 /// not.
-pub struct Dense<'t, T: Divisible<N>, const N: usize> {
+pub struct Dense<'t, T: Divisible<N> + ?Sized, const N: usize> {
     run: &'t mut T,
     start: Option<Start<T::Scalar, N>>,
 }
@@ -83,13 +83,13 @@ pub(super) struct Start<S, const N: usize> {
 /// The nodes of the cubic.
 const OF_CUBIC: &[f64] = &Gauss::<2>::NODES;
 
-impl<'t, T: Divisible<N>, const N: usize> Dense<'t, T, N> {
+impl<'t, T: Divisible<N> + ?Sized, const N: usize> Dense<'t, T, N> {
     pub(in crate::run) fn of(run: &'t mut T) -> Self {
         Self { run, start: None }
     }
 }
 
-impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
+impl<T: Divisible<N> + ?Sized, const N: usize> Dense<'_, T, N> {
     /// Whether the method has a polynomial of its own that is better than the cubic through both ends.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn is_collocated(&self) -> bool {
@@ -135,8 +135,11 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
     pub fn interpolated_at(&self, time: f64) -> Result<Moment<'_, T::System, N>, TimeError> {
         let start = self.start_before(time)?;
         let share = (time - start.time) / start.size.widen();
-        let of_method =
-            if self.is_collocated() { self.run.between(&start.state.q, start.size, share) } else { None };
+        let of_method = if self.is_collocated() {
+            self.run.last_step().between(&start.state.q, start.size, share)
+        } else {
+            None
+        };
         let [q, v] = match of_method {
             Some(at) => at,
             None => {
@@ -180,7 +183,8 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
         if elapsed == T::Scalar::constant(0.0) {
             return Ok(start.state);
         }
-        self.run.beginning(start.time, &start.state, &start.mean, [start.size, elapsed])
+        let (system, begun) = (self.system(), start.time - self.since());
+        self.run.last_step().beginning(system, begun, &start.state, &start.mean, [start.size, elapsed])
     }
 
     /// The time of the run at which the system has its own.
@@ -196,7 +200,7 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
         time: f64,
         state: &State<T::Scalar, N>,
     ) -> Result<SVector<T::Scalar, N>, StepError> {
-        self.run.velocity(time, state)
+        self.run.last_step().velocity(self.system(), time - self.since(), state)
     }
 
     /// Calls `visit` with moments on the chord of the last step, by its mean velocity.
@@ -240,7 +244,7 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
         let (system, since, h) = (self.run.system(), self.run.since(), start.size);
         let time = |share: f64| start.time + share * h.widen();
         if self.is_collocated() {
-            self.run.at_nodes(&start.state.q, h, |i, q, v| {
+            self.run.last_step().at_nodes(&start.state.q, h, &mut |i, q, v| {
                 let share = self.nodes().get(i).copied().unwrap_or(1.0);
                 visit(i, &Moment::interpolated(system, [time(share), since], *q, *v));
             });
@@ -288,7 +292,7 @@ impl<T: Restartable<N>, const N: usize> Dense<'_, T, N> {
     }
 }
 
-impl<T: Divisible<N>, const N: usize> Iterator for Dense<'_, T, N> {
+impl<T: Divisible<N> + ?Sized, const N: usize> Iterator for Dense<'_, T, N> {
     type Item = Result<Step<T::Scalar, N>, StepError>;
 
     #[inline]

@@ -1,11 +1,12 @@
 //! Runs whose input changes from step to step.
 
-use core::marker::PhantomData;
-
 use crate::run::checkpoint::Toward;
-use crate::run::trajectory::{Parted, TakenUntil, in_parts};
+use crate::run::last_step::Remembered;
 use crate::run::{Checkpoint, Course};
 use crate::step::{Discretised, Flow, Linearizable, Memory, State, Step, StepError, StepTaken};
+
+/// A step and its size.
+pub(crate) type TakenUntil<S, const N: usize> = Result<(Step<S, N>, S), StepError>;
 
 /// Runs with inputs.
 impl<L, M, const N: usize> Discretised<'_, L, M, N>
@@ -19,7 +20,7 @@ where
     pub fn run_with_inputs(&self, state: State<L::Scalar, N>) -> DrivenTrajectory<L, M, N> {
         let mut run = DrivenTrajectory::new(self.h, state);
         if let Some(velocity) = &self.guess {
-            Memory::<L, M, N>::suggest(&mut run.memory, velocity, self.h);
+            Memory::<L, M, N>::suggest(&mut run.memory.0, velocity, self.h);
         }
         run
     }
@@ -113,10 +114,9 @@ pub struct DrivenTrajectory<V, M, const N: usize>
 where
     V: Flow<M, N>,
 {
-    method: PhantomData<fn() -> M>,
-    at: Checkpoint<V::Scalar, N>,
-    pub(super) memory: V::RunMemory,
-    course: Course,
+    pub(super) at: Checkpoint<V::Scalar, N>,
+    pub(super) memory: Remembered<M, V::RunMemory>,
+    pub(super) course: Course,
 }
 
 /// The copy goes on as the run itself would, bit by bit.
@@ -126,7 +126,7 @@ where
     V::RunMemory: Clone,
 {
     fn clone(&self) -> Self {
-        Self { method: PhantomData, at: self.at, memory: self.memory.clone(), course: self.course }
+        Self { at: self.at, memory: self.memory.clone(), course: self.course }
     }
 }
 
@@ -143,8 +143,7 @@ where
     /// The run that `checkpoint` was taken of. One that no run can have left is refused by the first step.
     #[must_use]
     pub fn resume(checkpoint: Checkpoint<V::Scalar, N>) -> Self {
-        let (memory, course) = (V::RunMemory::default(), Course::Starting);
-        Self { method: PhantomData, at: checkpoint, memory, course }
+        Self { at: checkpoint, memory: Remembered::default(), course: Course::Starting }
     }
 
     /// The present state: that of the last step that succeeded, or the one [corrected](Self::correct).
@@ -172,7 +171,7 @@ where
     /// for the next step is kept. One that is far off is a new run's start.
     pub fn correct(&mut self, state: State<V::Scalar, N>) {
         self.at.state = state;
-        Memory::<V, M, N>::change_state(&mut self.memory);
+        Memory::<V, M, N>::change_state(&mut self.memory.0);
     }
 
     /// Goes on from another state at another time, as after an impact or a rest; what the method remembers is
@@ -193,8 +192,14 @@ where
     /// All that is needed to go on from here; the run forgets what its method remembers, as one that is
     /// resumed has to: both go on bit by bit alike.
     pub fn checkpoint(&mut self) -> Checkpoint<V::Scalar, N> {
-        self.memory = V::RunMemory::default();
+        self.memory = Remembered::default();
         self.at
+    }
+
+    /// Fails where `system`, which has the time that the run began with, is not to be stepped from here
+    /// ([`Course::require_step`]).
+    pub(super) fn require_step(&mut self, system: &V) -> Result<(), StepError> {
+        self.course.require_step::<V, V::RunMemory, M, N>(system, &self.at)
     }
 
     /// Takes the step of `system`, which holds the input of this step.
@@ -242,9 +247,9 @@ where
         L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
         V::RunMemory: Memory<L, M, N>,
     {
-        let step = Memory::<L, M, N>::advance(&mut self.memory, system, &self.at.state, self.at.step_size);
+        let step = Memory::<L, M, N>::advance(&mut self.memory.0, system, &self.at.state, self.at.step_size);
         if let Ok(step) = &step {
-            Memory::<L, M, N>::change_input(&mut self.memory);
+            Memory::<L, M, N>::change_input(&mut self.memory.0);
             self.at.follow(&step.state);
         }
         step
@@ -266,28 +271,6 @@ where
         step
     }
 
-    /// As [`advance`](Self::advance), in 2, 4, … 2^`halvings` parts with the same input where the whole one
-    /// fails.
-    ///
-    /// # Errors
-    /// The [`StepError`] of the whole step; the state is untouched.
-    pub fn advance_in_parts<L>(
-        &mut self,
-        system: &L,
-        halvings: u32,
-    ) -> Result<Parted<V::Scalar, N>, StepError>
-    where
-        L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
-        V::RunMemory: Memory<L, M, N>,
-    {
-        let course = self.course.after::<L, V::RunMemory, M, N>(system, &self.at)?;
-        let parted = in_parts(&mut self.memory, system, 0.0, &self.at, halvings)?;
-        Memory::<L, M, N>::change_input(&mut self.memory);
-        self.course = course;
-        self.at.follow(&parted.step.state);
-        Ok(parted)
-    }
-
     /// Takes the step of `system`, and linearises its equations there: A, B and derivatives by parameters, by
     /// one factorisation.
     ///
@@ -302,11 +285,11 @@ where
     {
         let course = self.course.after::<L, V::RunMemory, M, N>(system, &self.at)?;
         let Checkpoint { state, step_size: h, .. } = self.at;
-        let step = Memory::<L, M, N>::advance(&mut self.memory, system, &state, h)?;
-        let taken = StepTaken::new(system, &self.memory, &state, step, h);
-        Memory::<L, M, N>::change_input(&mut self.memory);
+        let step = Memory::<L, M, N>::advance(&mut self.memory.0, system, &state, h)?;
+        let taken = StepTaken::new(system, &self.memory.0, &state, step, h);
+        Memory::<L, M, N>::change_input(&mut self.memory.0);
         if taken.is_err() {
-            Memory::<L, M, N>::change_state(&mut self.memory);
+            Memory::<L, M, N>::change_state(&mut self.memory.0);
         } else {
             self.course = course;
             self.at.follow(&step.state);

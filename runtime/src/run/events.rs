@@ -130,7 +130,7 @@ pub enum Crossing {
 /// assert!((now - left).abs() < 1e-13);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct Watch<'t, T: Divisible<N>, G, const N: usize, const K: usize> {
+pub struct Watch<'t, T: Divisible<N> + ?Sized, G, const N: usize, const K: usize> {
     dense: Dense<'t, T, N>,
     g: G,
     crossings: [Crossing; K],
@@ -190,7 +190,7 @@ pub enum Watched<S, const N: usize> {
 
 impl<'t, T, G, const N: usize, const K: usize> Watch<'t, T, G, N, K>
 where
-    T: Divisible<N>,
+    T: Divisible<N> + ?Sized,
     G: Fn(&Moment<'_, T::System, N>) -> [T::Scalar; K],
 {
     /// Watches `run`, of whatever type, for the events that the functions `g` vanish.
@@ -490,7 +490,7 @@ where
 
 impl<T, G, const N: usize, const K: usize> Iterator for Watch<'_, T, G, N, K>
 where
-    T: Divisible<N>,
+    T: Divisible<N> + ?Sized,
     G: Fn(&Moment<'_, T::System, N>) -> [T::Scalar; K],
 {
     type Item = Result<Event<T::Scalar, N>, EventError>;

@@ -2,14 +2,11 @@
 
 mod period;
 
-use nalgebra::SVector;
-
 use crate::numbers::Scalar;
-use crate::run::between::{Dense, Divisible, Moment, Restartable, SampledAt, Until, beginning};
+use crate::run::between::{Dense, Divisible, LastStep, Moment, Restartable, SampledAt, Until};
 use crate::run::events::Watch;
 use crate::run::present::at_present;
 use crate::run::{DrivenTrajectory, Run, TakenUntil};
-use crate::step::flow::velocity;
 use crate::step::{Flow, Memory, State, Step, StepError};
 
 pub use period::{Carried, InPeriod, Period, Sensitivities};
@@ -170,40 +167,8 @@ where
         self.run.step_size()
     }
 
-    fn nodes(&self) -> &'static [f64] {
-        <V::RunMemory as Memory<L, M, N>>::NODES
-    }
-
-    fn at_nodes(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-        visit: impl FnMut(usize, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>),
-    ) {
-        Memory::<L, M, N>::at_nodes(&self.run.memory, q0, h, visit);
-    }
-
-    fn between(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-        share: f64,
-    ) -> Option<[SVector<L::Scalar, N>; 2]> {
-        Memory::<L, M, N>::between(&self.run.memory, q0, h, share)
-    }
-
-    fn velocity(&self, time: f64, state: &State<L::Scalar, N>) -> Result<SVector<L::Scalar, N>, StepError> {
-        velocity::<L, M, N>(self.system, &self.run.memory, time - self.since, state)
-    }
-
-    fn beginning(
-        &self,
-        time: f64,
-        state: &State<L::Scalar, N>,
-        mean: &SVector<L::Scalar, N>,
-        sizes: [L::Scalar; 2],
-    ) -> Result<State<L::Scalar, N>, StepError> {
-        beginning::<L, M, N>(self.system, &self.run.memory, time - self.since, state, mean, sizes)
+    fn last_step(&self) -> &dyn LastStep<L, N> {
+        &self.run.memory
     }
 }
 

@@ -1,21 +1,15 @@
 //! The step sizes of a run that follows a time scale.
 
 use crate::numbers::Scalar;
-use crate::run::Checkpoint;
-use crate::step::flow::velocity;
+use crate::run::last_step::LastStep;
+use crate::run::{Checkpoint, DrivenTrajectory};
 use crate::step::{Flow, State, StepError};
-use crate::system::{Lagrangian, TimeScale};
-
-type Scalars<L, const N: usize> = <L as Lagrangian<N>>::Scalar;
+use crate::system::TimeScale;
 
 /// [`Pace::next`] of a system that has a time scale: compiled where a run follows it, and in no other
 /// program.
-type Next<L, M, const N: usize> = fn(
-    &mut Pace<L, M, N>,
-    &L,
-    &<L as Flow<M, N>>::RunMemory,
-    &mut Checkpoint<Scalars<L, N>, N>,
-) -> Result<(), StepError>;
+type Next<L, M, const N: usize> =
+    fn(&mut Pace<L, M, N>, &L, &mut DrivenTrajectory<L, M, N>) -> Result<(), StepError>;
 
 /// How steps follow a time scale.
 pub(super) struct Pace<L: Flow<M, N>, M, const N: usize> {
@@ -59,24 +53,18 @@ impl<L: Flow<M, N>, M, const N: usize> Pace<L, M, N> {
         self.course.is_first = self.course.parameter_step != L::Scalar::constant(0.0);
     }
 
-    /// Makes `at` what the next step starts from: with its step size, and the time as its origin.
+    /// Gives `run` the size of its next step, with the present time as the origin of its clock.
     ///
     /// # Errors
     /// [`StepError::TimeScale`]; those of [`State::velocity`].
-    pub(super) fn next(
-        &mut self,
-        system: &L,
-        memory: &L::RunMemory,
-        at: &mut Checkpoint<L::Scalar, N>,
-    ) -> Result<(), StepError> {
-        (self.next)(self, system, memory, at)
+    pub(super) fn next(&mut self, system: &L, run: &mut DrivenTrajectory<L, M, N>) -> Result<(), StepError> {
+        (self.next)(self, system, run)
     }
 
     fn next_scaled(
         &mut self,
         system: &L,
-        memory: &L::RunMemory,
-        at: &mut Checkpoint<L::Scalar, N>,
+        DrivenTrajectory { at, memory, .. }: &mut DrivenTrajectory<L, M, N>,
     ) -> Result<(), StepError>
     where
         L: TimeScale<N>,
@@ -84,7 +72,7 @@ impl<L: Flow<M, N>, M, const N: usize> Pace<L, M, N> {
         let of = L::Scalar::constant;
         let time = at.time();
         let State { q, .. } = &at.state;
-        let velocity = velocity::<L, M, N>(system, memory, time, &at.state)?;
+        let velocity = memory.velocity(system, time, &at.state)?;
         let (scale, gradient) = system.time_scale_gradient(q);
         let rate = gradient.dot(&velocity) / scale;
         let Course { mut parameter_step, is_first, mut rest } = self.course;

@@ -71,7 +71,7 @@ where
     where
         L: TimeScale<N>,
     {
-        self.pace = Some(Pace::new(&self.at));
+        self.pace = Some(Pace::new(&self.run.at));
         self
     }
 }

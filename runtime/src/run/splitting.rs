@@ -3,11 +3,15 @@
 mod coefficients;
 mod force_work;
 mod lanes;
+mod sums;
 mod underway;
+
+use core::marker::PhantomData;
 
 use nalgebra::{SMatrix, SVector};
 
 use coefficients::Part;
+pub use sums::{CompensatedSums, PlainSums, Sums};
 use underway::Underway;
 
 use crate::numbers::{Compensated, Scalar};
@@ -94,8 +98,8 @@ use crate::system::GeneratedDiffers;
 /// # Ok::<(), dalembert::StepError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Splitting<const S: usize, const COMPENSATED: bool = false> {
-    made: (),
+pub struct Splitting<const S: usize, C: Sums = PlainSums> {
+    sums: PhantomData<C>,
 }
 
 impl<const S: usize> Splitting<S> {
@@ -123,16 +127,16 @@ impl<const S: usize> Splitting<S> {
     /// # Ok::<(), dalembert::StepError>(())
     /// ```
     #[must_use]
-    pub const fn compensated(self) -> Splitting<S, true> {
-        Splitting { made: self.made }
+    pub const fn compensated(self) -> Splitting<S, CompensatedSums> {
+        Splitting { sums: PhantomData }
     }
 }
 
-impl<L, const N: usize, const S: usize, const COMPENSATED: bool> Flow<Splitting<S, COMPENSATED>, N> for L
+impl<L, const N: usize, const S: usize, C: Sums> Flow<Splitting<S, C>, N> for L
 where
     L: Explicit<N>,
 {
-    type RunMemory = Kicks<L::Scalar, N, S, COMPENSATED>;
+    type RunMemory = Kicks<L::Scalar, N, S, C>;
 
     /// No equation is solved: no guess serves.
     #[inline]
@@ -142,7 +146,7 @@ where
         h: L::Scalar,
         _guess: Option<&SVector<L::Scalar, N>>,
     ) -> Result<Step<L::Scalar, N>, StepError> {
-        Memory::<L, Splitting<S, COMPENSATED>, N>::advance(&mut Kicks::default(), self, state, h)
+        Memory::<L, Splitting<S, C>, N>::advance(&mut Kicks::default(), self, state, h)
     }
 
     /// The product of the kicks' and drifts' derivatives.
@@ -154,7 +158,7 @@ where
     ) -> Result<LinearizedStep<L::Scalar, N>, StepError> {
         let prepared = Prepared::<L::Scalar, N, S>::new(self, h)?;
         let mut kicks = Kicks { prepared: Some(prepared), ..Kicks::default() };
-        let step = Memory::<L, Splitting<S, COMPENSATED>, N>::advance(&mut kicks, self, state, h)?;
+        let step = Memory::<L, Splitting<S, C>, N>::advance(&mut kicks, self, state, h)?;
         Ok((step, prepared.derivative(self, state)?))
     }
 
@@ -169,17 +173,18 @@ where
 /// of a step is that at the start of the next, unless an input is held, which may be another by then, or the
 /// force takes the time. It belongs to one system.
 #[derive(Clone, Copy, Debug)]
-pub struct Kicks<T, const N: usize, const S: usize, const COMPENSATED: bool> {
+pub struct Kicks<T, const N: usize, const S: usize, C: Sums> {
     prepared: Option<Prepared<T, N, S>>,
     /// A configuration, and G − ∂R/∂v(0) there.
     force: Option<(SVector<T, N>, SVector<T, N>)>,
     /// The end of the last step, and what its sums have lost; only of compensated sums.
     end: Option<[Compensated<T, N>; 2]>,
+    sums: PhantomData<C>,
 }
 
-impl<T, const N: usize, const S: usize, const COMPENSATED: bool> Default for Kicks<T, N, S, COMPENSATED> {
+impl<T, const N: usize, const S: usize, C: Sums> Default for Kicks<T, N, S, C> {
     fn default() -> Self {
-        Self { prepared: None, force: None, end: None }
+        Self { prepared: None, force: None, end: None, sums: PhantomData }
     }
 }
 
@@ -245,13 +250,13 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
     /// The step from where `at` is, with `drift` for its drifts, from where the force is `force`; the force
     /// at its end. One that drifts first asks for no force at its ends.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn carry<L: Explicit<N, Scalar = T>, D, const COMPENSATED: bool>(
+    fn carry<L: Explicit<N, Scalar = T>, D, C: Sums>(
         &self,
         system: &L,
-        at: &mut Underway<T, N, COMPENSATED>,
+        at: &mut Underway<T, N, C>,
         mut force: SVector<T, N>,
         drifts: &[D; S],
-        drift: impl Fn(&D, &mut Underway<T, N, COMPENSATED>),
+        drift: impl Fn(&D, &mut Underway<T, N, C>),
     ) -> SVector<T, N> {
         let mut sum = nalgebra::zero();
         if Splitting::<S>::DRIFTS_FIRST {
@@ -398,8 +403,7 @@ fn once_each<T: Scalar, const N: usize, const C: usize, const S: usize>(
     Ok(drifts)
 }
 
-impl<L, const N: usize, const S: usize, const COMPENSATED: bool> Memory<L, Splitting<S, COMPENSATED>, N>
-    for Kicks<L::Scalar, N, S, COMPENSATED>
+impl<L, const N: usize, const S: usize, C: Sums> Memory<L, Splitting<S, C>, N> for Kicks<L::Scalar, N, S, C>
 where
     L: Explicit<N>,
 {
@@ -427,7 +431,7 @@ where
                 }
             }
         };
-        let mut at = Underway::<_, N, COMPENSATED>::new(state, &prepared.shift, self.end.as_ref());
+        let mut at = Underway::<_, N, C>::new(state, &prepared.shift, self.end.as_ref());
         let at_end = match (&prepared.drifts, prepared.is_damped) {
             (Drifts::Diagonal(drifts), true) => {
                 prepared.carry(system, &mut at, force, drifts, |drift, at| {

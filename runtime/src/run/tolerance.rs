@@ -23,12 +23,13 @@ mod variation;
 
 use crate::numbers::Scalar;
 use crate::rules::SLACK;
+pub use crate::run::last_step::LastStep;
 use crate::step::{State, StepError, verify_start};
 use crate::system::{ActingForce, Lagrangian};
 use grid::{Bounds, Breaks, Segment};
 pub use guard::{GuardedCheckpoint, GuardedTrajectory};
 pub use method::Method;
-pub use methods::{LastStep, MethodStep, Methods, Taken, WithGauss, WithSplittings};
+pub use methods::{MethodStep, Methods, Taken, WithGauss, WithSplittings};
 pub use offers::OffersMethods;
 pub use reached::Reached;
 pub use request::{Request, TimedRequest};

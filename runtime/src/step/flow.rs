@@ -229,17 +229,3 @@ where
         system.later(L::Scalar::constant(elapsed), |system| self.advance(system, state, h))
     }
 }
-
-/// The velocity of a state at a time of a run, by what is remembered of it or else solved for.
-#[inline]
-pub(crate) fn velocity<L: Flow<M, N>, M, const N: usize>(
-    system: &L,
-    memory: &L::RunMemory,
-    time: f64,
-    state: &State<L::Scalar, N>,
-) -> Result<SVector<L::Scalar, N>, StepError> {
-    match memory.velocity(state) {
-        Some(velocity) => Ok(velocity),
-        None => system.later(L::Scalar::constant(time), |system| state.velocity(system)),
-    }
-}

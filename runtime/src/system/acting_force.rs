@@ -15,6 +15,10 @@ use crate::system::Lagrangian;
 /// `impl`; one with R sets [`HAS_RAYLEIGH`](Self::HAS_RAYLEIGH) and hands R on, one with f sets
 /// [`HAS_FORCE`](Self::HAS_FORCE) and hands f on; one that changes with time sets
 /// [`IS_TIMED`](Self::IS_TIMED).
+///
+/// It is no part of [`Lagrangian`], with 0 where nothing is said: a system whose force takes an input has an
+/// L by itself, and a force through a view alone. Without the view no step compiles, where a default would
+/// leave out the force.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no force as it stands here",
     label = "which force acts is not known",

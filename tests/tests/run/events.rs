@@ -4,9 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use dalembert::nalgebra::{SVector, Vector2, vector};
 use dalembert::run::between::{Divisible, Restartable};
-use dalembert::run::events::{Crossing, EventError, EventGradient, Passage, Watched};
+use dalembert::run::events::{Crossing, Event, EventError, EventGradient, Passage, Watch, Watched};
 use dalembert::run::{HeldInput, Run};
-use dalembert::step::Flow;
+use dalembert::step::{Flow, Step};
 use dalembert::tolerance::{LastStep, Method, MethodStep, Methods, WithGauss, WithSplittings};
 use dalembert::{
     Composition, Discretise, EnergyLedger, Gauss, Midpoint, Splitting, State, StepError, Trapezoidal,
@@ -599,6 +599,24 @@ fn runs_of_all_kinds_are_divisible() {
         let last: &dyn LastStep<Oscillator, 1> = step.last();
         assert_eq!(last.nodes().len(), expected);
     }
+}
+
+/// A run is watched without its type, by the functions that it is watched by with it: the very events.
+#[test]
+fn runs_are_watched_without_their_types() {
+    type Some<'r> =
+        dyn Divisible<1, Item = Result<Step<f64, 1>, StepError>, Scalar = f64, System = Oscillator> + 'r;
+    fn zeros<T: Divisible<1, Scalar = f64> + ?Sized>(run: &mut T) -> [Event<f64, 1>; 3] {
+        let mut watch = Watch::new(run, |at| [at.q[0]]);
+        [(); 3].map(|()| watch.next().unwrap().unwrap())
+    }
+    let by = Oscillator {}.by(Gauss::<5>, 0.25);
+    let expected = zeros(&mut by.run(UP));
+    assert_eq!(zeros::<Some<'_>>(&mut by.run(UP)), expected);
+    let mut driven = Oscillator {}.by(Gauss::<5>, 0.25).run_with_inputs(UP);
+    assert_eq!(zeros::<Some<'_>>(&mut driven.hold(&Oscillator {})), expected);
+    // The cubic's moments are others: another method is told apart.
+    assert_ne!(zeros::<Some<'_>>(&mut Oscillator {}.by(Midpoint, 0.25).run(UP)), expected);
 }
 
 /// What events and samples say.

@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use dalembert::nalgebra::{Matrix2, Matrix4, SMatrix, SVector, matrix, vector};
-use dalembert::run::Explicit;
+use dalembert::run::{CompensatedSums, DrivenTrajectory, Explicit, PlainSums, Sums};
 use dalembert::step::{Flow, Memory, MethodOf, Quantity};
 use dalembert::system::Function;
 use dalembert::{
@@ -18,8 +18,8 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
 /// The end of so many steps.
-fn end<L, const N: usize, const S: usize, const COMPENSATED: bool>(
-    splitting: Splitting<S, COMPENSATED>,
+fn end<L, const N: usize, const S: usize, C: Sums>(
+    splitting: Splitting<S, C>,
     system: &L,
     h: f64,
     start: State<f64, N>,
@@ -417,6 +417,29 @@ fn compensated_sums_are_of_the_same_step() {
     let (plain, by_plain) = system.by(six, 0.3).linearized_step(&START).unwrap();
     assert!(apart(step.state, plain.state) < 1e-15);
     assert_eq!(by, by_plain);
+}
+
+/// A struct that owns a run says by the type how its sums are made.
+#[test]
+fn sums_are_named_in_types() {
+    struct Machine<C: Sums> {
+        system: Two,
+        run: DrivenTrajectory<Two, Splitting<19, C>, 2>,
+    }
+    fn led<C: Sums>() -> State<f64, 2> {
+        let system = Two { damping: [0.5, -0.2, 0.7], k: 1.0 };
+        let mut machine = Machine::<C> { system, run: DrivenTrajectory::new(0.02, START) };
+        for _ in 0..200 {
+            machine.run.advance(&machine.system).unwrap();
+        }
+        *machine.run.state()
+    }
+    let (system, eight) =
+        (Two { damping: [0.5, -0.2, 0.7], k: 1.0 }, Splitting::blanes_casas_escorihuela_8());
+    let [plain, compensated] = [led::<PlainSums>(), led::<CompensatedSums>()];
+    assert_eq!(plain, end(eight, &system, 0.02, START, 200));
+    assert_eq!(compensated, end(eight.compensated(), &system, 0.02, START, 200));
+    assert_ne!(plain, compensated);
 }
 
 /// Without damping momenta do not drift: free ones, with a mass matrix that has to be decomposed, and an

@@ -84,154 +84,9 @@ pub struct Events<'a> {
     pub origin: f64,
 }
 
-/// A function of the index of a node, of q there and of v.
-type Visit<'v, const N: usize> = dyn FnMut(usize, &SVector<f64, N>, &SVector<f64, N>) + 'v;
-
-/// A run that is [`Divisible`], without its type.
-pub(crate) trait Divided<L, const N: usize> {
-    fn take(&mut self) -> Option<Result<Step<f64, N>, StepError>>;
-    fn state(&self) -> &State<f64, N>;
-    fn time(&self) -> f64;
-    fn system(&self) -> &L;
-    fn since(&self) -> f64;
-    fn step_size(&self) -> f64;
-    fn nodes(&self) -> &'static [f64];
-    fn at_nodes(&self, q0: &SVector<f64, N>, h: f64, visit: &mut Visit<'_, N>);
-    fn between(&self, q0: &SVector<f64, N>, h: f64, share: f64) -> Option<[SVector<f64, N>; 2]>;
-    fn velocity(&self, time: f64, state: &State<f64, N>) -> Result<SVector<f64, N>, StepError>;
-    fn beginning(
-        &self,
-        time: f64,
-        state: &State<f64, N>,
-        mean: &SVector<f64, N>,
-        sizes: [f64; 2],
-    ) -> Result<State<f64, N>, StepError>;
-}
-
-impl<L, T, const N: usize> Divided<L, N> for T
-where
-    T: Divisible<N, System = L, Scalar = f64>,
-{
-    fn take(&mut self) -> Option<Result<Step<f64, N>, StepError>> {
-        self.next()
-    }
-
-    fn state(&self) -> &State<f64, N> {
-        Run::state(self)
-    }
-
-    fn time(&self) -> f64 {
-        Run::time(self)
-    }
-
-    fn system(&self) -> &L {
-        Divisible::system(self)
-    }
-
-    fn since(&self) -> f64 {
-        Divisible::since(self)
-    }
-
-    fn step_size(&self) -> f64 {
-        Divisible::step_size(self)
-    }
-
-    fn nodes(&self) -> &'static [f64] {
-        Divisible::nodes(self)
-    }
-
-    fn at_nodes(&self, q0: &SVector<f64, N>, h: f64, visit: &mut Visit<'_, N>) {
-        Divisible::at_nodes(self, q0, h, visit);
-    }
-
-    fn between(&self, q0: &SVector<f64, N>, h: f64, share: f64) -> Option<[SVector<f64, N>; 2]> {
-        Divisible::between(self, q0, h, share)
-    }
-
-    fn velocity(&self, time: f64, state: &State<f64, N>) -> Result<SVector<f64, N>, StepError> {
-        Divisible::velocity(self, time, state)
-    }
-
-    fn beginning(
-        &self,
-        time: f64,
-        state: &State<f64, N>,
-        mean: &SVector<f64, N>,
-        sizes: [f64; 2],
-    ) -> Result<State<f64, N>, StepError> {
-        Divisible::beginning(self, time, state, mean, sizes)
-    }
-}
-
 /// A run by some method: watching is compiled for a system, not for each of its methods.
-struct BySome<'r, L, const N: usize>(&'r mut dyn Divided<L, N>);
-
-impl<L, const N: usize> Iterator for BySome<'_, L, N> {
-    type Item = Result<Step<f64, N>, StepError>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        self.0.take()
-    }
-}
-
-impl<L, const N: usize> Run<N> for BySome<'_, L, N> {
-    type Scalar = f64;
-
-    fn state(&self) -> &State<f64, N> {
-        self.0.state()
-    }
-
-    fn time(&self) -> f64 {
-        self.0.time()
-    }
-}
-
-impl<L: Lagrangian<N, Scalar = f64>, const N: usize> Divisible<N> for BySome<'_, L, N> {
-    type System = L;
-
-    fn system(&self) -> &L {
-        self.0.system()
-    }
-
-    fn since(&self) -> f64 {
-        self.0.since()
-    }
-
-    fn step_size(&self) -> f64 {
-        self.0.step_size()
-    }
-
-    fn nodes(&self) -> &'static [f64] {
-        self.0.nodes()
-    }
-
-    fn at_nodes(
-        &self,
-        q0: &SVector<f64, N>,
-        h: f64,
-        mut visit: impl FnMut(usize, &SVector<f64, N>, &SVector<f64, N>),
-    ) {
-        self.0.at_nodes(q0, h, &mut visit);
-    }
-
-    fn between(&self, q0: &SVector<f64, N>, h: f64, share: f64) -> Option<[SVector<f64, N>; 2]> {
-        self.0.between(q0, h, share)
-    }
-
-    fn velocity(&self, time: f64, state: &State<f64, N>) -> Result<SVector<f64, N>, StepError> {
-        self.0.velocity(time, state)
-    }
-
-    fn beginning(
-        &self,
-        time: f64,
-        state: &State<f64, N>,
-        mean: &SVector<f64, N>,
-        sizes: [f64; 2],
-    ) -> Result<State<f64, N>, StepError> {
-        self.0.beginning(time, state, mean, sizes)
-    }
-}
+pub(crate) type BySome<'r, L, const N: usize> =
+    dyn Divisible<N, Item = Result<Step<f64, N>, StepError>, Scalar = f64, System = L> + 'r;
 
 /// A run that is watched, while it is recorded.
 struct Watching<'t, 'r, 'e, L: Lagrangian<N, Scalar = f64>, G, const N: usize> {
@@ -243,13 +98,12 @@ struct Watching<'t, 'r, 'e, L: Lagrangian<N, Scalar = f64>, G, const N: usize> {
 
 /// Records `run` while it is watched for events.
 pub(crate) fn watched<L, const N: usize>(
-    run: &mut dyn Divided<L, N>,
+    run: &mut BySome<'_, L, N>,
     Events { asked, origin }: Events<'_>,
     record: &mut dyn FnMut(&mut dyn Motion<N>),
 ) where
     L: Lagrangian<N, Scalar = f64>,
 {
-    let mut run = BySome(run);
     let functions = |at: &Moment<'_, L, N>| {
         let mut values = [1.0; MOST];
         let mut velocity = None;
@@ -267,7 +121,7 @@ pub(crate) fn watched<L, const N: usize>(
     };
     let mut crossings = [Crossing::Either; MOST];
     crossings.iter_mut().zip(asked).for_each(|(crossing, event)| *crossing = event.crossing);
-    let watch = Watch::new(&mut run, functions).crossing(crossings);
+    let watch = Watch::new(run, functions).crossing(crossings);
     record(&mut Watching { watch, asked, end: None });
 }
 

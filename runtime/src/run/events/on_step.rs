@@ -34,7 +34,7 @@ impl<S: Scalar, const N: usize> Found<S, N> {
 
 impl<T, G, const N: usize, const K: usize> Watch<'_, T, G, N, K>
 where
-    T: Divisible<N>,
+    T: Divisible<N> + ?Sized,
     G: Fn(&Moment<'_, T::System, N>) -> [T::Scalar; K],
 {
     /// The values at the start of the run, 0 where it starts on the event.
@@ -247,7 +247,7 @@ struct At<S, const N: usize> {
 }
 
 /// An event function along a step of a run.
-struct OnStep<'s, 't, T: Divisible<N>, G, const N: usize> {
+struct OnStep<'s, 't, T: Divisible<N> + ?Sized, G, const N: usize> {
     dense: &'s Dense<'t, T, N>,
     g: &'s G,
     start: Start<T::Scalar, N>,
@@ -266,7 +266,7 @@ struct OnStep<'s, 't, T: Divisible<N>, G, const N: usize> {
 
 impl<T, G, const N: usize, const K: usize> OnStep<'_, '_, T, G, N>
 where
-    T: Divisible<N>,
+    T: Divisible<N> + ?Sized,
     G: Fn(&Moment<'_, T::System, N>) -> [T::Scalar; K],
 {
     /// The error where partial steps do not tell: after an impact it is the next one that they do not see.
@@ -300,7 +300,7 @@ where
 
 impl<T, G, const N: usize, const K: usize> Curve for OnStep<'_, '_, T, G, N>
 where
-    T: Divisible<N>,
+    T: Divisible<N> + ?Sized,
     G: Fn(&Moment<'_, T::System, N>) -> [T::Scalar; K],
 {
     fn value(&mut self, share: f64) -> Result<f64, EventError> {

@@ -271,7 +271,7 @@ where
         self.at_start = self.at_end;
         let HeldInput { run, system, since } = self.watch.run();
         let elapsed = L::Scalar::constant(time - since);
-        let after = |system: &L| carry(&self.at_start, system, &run.memory, &state, &step, size);
+        let after = |system: &L| carry(&self.at_start, system, &run.memory.0, &state, &step, size);
         match system.later(elapsed, after) {
             Ok(after) => self.at_end = after,
             Err(error) => return Err(self.watch.refuse(error.into(), time)),

@@ -1,13 +1,15 @@
 //! The splittings that there are, by their shares of the step.
 
-use super::Splitting;
+use core::marker::PhantomData;
+
+use super::{Splitting, Sums};
 use crate::run::composition::symmetric;
 
 impl Splitting<6> {
     /// Order 4 with 6 gradients a step (Blanes and Moan 2002, SRKN₆ᵇ).
     #[must_use]
     pub const fn blanes_moan_4() -> Self {
-        Self { made: () }
+        Self { sums: PhantomData }
     }
 }
 
@@ -15,7 +17,7 @@ impl Splitting<11> {
     /// Order 6 with 11 gradients a step (Blanes and Moan 2002, SRKN₁₁ᵇ).
     #[must_use]
     pub const fn blanes_moan_6() -> Self {
-        Self { made: () }
+        Self { sums: PhantomData }
     }
 }
 
@@ -34,7 +36,7 @@ impl Splitting<19> {
     /// | chain | 1.88 | 1.18 | 1.01 | 0.93 | 0.80 | 0.74 |
     #[must_use]
     pub const fn blanes_casas_escorihuela_8() -> Self {
-        Self { made: () }
+        Self { sums: PhantomData }
     }
 }
 
@@ -161,7 +163,7 @@ impl<const S: usize> Splitting<S> {
     }
 }
 
-impl<const S: usize, const COMPENSATED: bool> Splitting<S, COMPENSATED> {
+impl<const S: usize, C: Sums> Splitting<S, C> {
     /// a₁ … a_S: the drifts as shares of the step; some are negative. They sum to 1, of order 8 with a₁ once
     /// more, for the drift after the last kick.
     #[must_use]

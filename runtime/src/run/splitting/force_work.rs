@@ -4,7 +4,7 @@
 use nalgebra::SVector;
 
 use super::coefficients::Part;
-use super::{Drift, Prepared, Splitting};
+use super::{Drift, Prepared, Splitting, Sums};
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::run::Explicit;
 use crate::step::{EnergyExchange, ForceWork, State, StepError};
@@ -15,7 +15,7 @@ use crate::step::{EnergyExchange, ForceWork, State, StepError};
 /// ```
 ///
 /// with p less ∂L/∂v(0). A drift backwards gives back what friction would have taken on the way.
-impl<L, const N: usize, const S: usize, const COMPENSATED: bool> ForceWork<Splitting<S, COMPENSATED>, N> for L
+impl<L, const N: usize, const S: usize, C: Sums> ForceWork<Splitting<S, C>, N> for L
 where
     L: Explicit<N>,
 {

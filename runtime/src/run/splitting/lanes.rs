@@ -5,7 +5,7 @@
 use nalgebra::SMatrix;
 
 use super::underway::UnderwayInLanes;
-use super::{Drifts, Prepared, Splitting};
+use super::{Drifts, Prepared, Splitting, Sums};
 use crate::numbers::members::{difference, each_coordinate, write_member};
 use crate::numbers::{CompensatedMembers, Mask, MemberVector, Members, Scalar};
 use crate::rules::Drift;
@@ -49,7 +49,7 @@ struct FullDrifts<T, const N: usize, const S: usize, const W: usize> {
 /// Takes (q, p − ∂L/∂v(0)) through one drift.
 trait Drifting<T, const N: usize, const W: usize> {
     /// The i-th of the first half.
-    fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<'_, T, N, COMPENSATED, W>);
+    fn drift<C: Sums>(&self, i: usize, at: &mut UnderwayInLanes<'_, T, N, C, W>);
 }
 
 /// Drifts of the form [`DriftsInLanes::Undamped`].
@@ -59,7 +59,7 @@ impl<T: Scalar, const N: usize, const S: usize, const W: usize> Drifting<T, N, W
     for Undamped<'_, T, N, S, W>
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<'_, T, N, COMPENSATED, W>) {
+    fn drift<C: Sums>(&self, i: usize, at: &mut UnderwayInLanes<'_, T, N, C, W>) {
         let drift = &self.0[i];
         each_coordinate!(a => {
             at.drift(a, drift.displacement[a] * at.momentum(a));
@@ -74,7 +74,7 @@ impl<T: Scalar, const N: usize, const S: usize, const W: usize> Drifting<T, N, W
     for Diagonal<'_, T, N, S, W>
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<'_, T, N, COMPENSATED, W>) {
+    fn drift<C: Sums>(&self, i: usize, at: &mut UnderwayInLanes<'_, T, N, C, W>) {
         let drift = &self.0[i];
         each_coordinate!(a => {
             let p = at.momentum(a);
@@ -88,7 +88,7 @@ impl<T: Scalar, const N: usize, const S: usize, const W: usize> Drifting<T, N, W
     for &FullDrifts<T, N, S, W>
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<'_, T, N, COMPENSATED, W>) {
+    fn drift<C: Sums>(&self, i: usize, at: &mut UnderwayInLanes<'_, T, N, C, W>) {
         let drift = &self.drifts[i];
         let mut before = [Members::splat(T::zero()); N];
         for a in 0..N {
@@ -121,8 +121,8 @@ type Carried<T, const N: usize, const W: usize> =
 
 /// As many steps, with the force −∇V(q) + f(q) of all members.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn carry<L, D, const N: usize, const S: usize, const COMPENSATED: bool, const W: usize>(
-    runs: &LaneRuns<'_, L, Splitting<S, COMPENSATED>, N, W>,
+fn carry<L, D, const N: usize, const S: usize, C: Sums, const W: usize>(
+    runs: &LaneRuns<'_, L, Splitting<S, C>, N, W>,
     steps: u64,
     drifts: D,
 ) -> Carried<L::Scalar, N, W>
@@ -142,7 +142,7 @@ where
             present = L::later_in_lanes(fields, &runs.clocks.elapsed(step, h));
             now = &present;
         }
-        let mut at = UnderwayInLanes::<L::Scalar, N, COMPENSATED, W>::new(&mut q, &mut p, shift);
+        let mut at = UnderwayInLanes::<L::Scalar, N, C, W>::new(&mut q, &mut p, shift);
         if Splitting::<S>::DRIFTS_FIRST {
             drifts.drift(0, &mut at);
             for i in 0..S {
@@ -276,8 +276,7 @@ const fn may_be_full<const N: usize>(structure: &Structure) -> bool {
     N > 1 && !matches!(of_both, Some(NewtonStructure { bandwidth: 0, .. }))
 }
 
-impl<L, const N: usize, const S: usize, const COMPENSATED: bool> FlowInLanes<Splitting<S, COMPENSATED>, N>
-    for L
+impl<L, const N: usize, const S: usize, C: Sums> FlowInLanes<Splitting<S, C>, N> for L
 where
     L: ExplicitInLanes<N>,
 {
@@ -294,7 +293,7 @@ where
         }
     }
 
-    fn put<const W: usize>(runs: &mut LaneRuns<'_, L, Splitting<S, COMPENSATED>, N, W>, lane: usize) -> bool {
+    fn put<const W: usize>(runs: &mut LaneRuns<'_, L, Splitting<S, C>, N, W>, lane: usize) -> bool {
         let system = runs.systems[lane];
         let Ok(prepared) = Prepared::new(system, runs.h) else { return false };
         let q = runs.values(lane).q;
@@ -309,10 +308,7 @@ where
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn advance_in_lanes<const W: usize>(
-        runs: &mut LaneRuns<'_, L, Splitting<S, COMPENSATED>, N, W>,
-        steps: u64,
-    ) {
+    fn advance_in_lanes<const W: usize>(runs: &mut LaneRuns<'_, L, Splitting<S, C>, N, W>, steps: u64) {
         (runs.q, runs.p, runs.kept.force) = match &runs.kept.drifts {
             DriftsInLanes::Undamped(drifts) => carry(runs, steps, Undamped(drifts)),
             DriftsInLanes::Diagonal(drifts) if const { may_be_damped(&L::STRUCTURE) } => {

@@ -1,12 +1,9 @@
 //! Looking into the steps of a guarded run.
 
-use nalgebra::SVector;
-
 use super::{GuardedTrajectory, Methods};
 use crate::numbers::Scalar;
-use crate::run::between::{Dense, Divisible, Moment, SampledAt};
+use crate::run::between::{Dense, Divisible, LastStep, Moment, SampledAt};
 use crate::run::events::Watch;
-use crate::step::{State, StepError};
 use crate::system::ActingForce;
 
 /// Between the steps, and events: as of every run, but that it cannot be restarted, since the error that it
@@ -69,39 +66,7 @@ where
         L::Scalar::constant(self.step_size())
     }
 
-    fn nodes(&self) -> &'static [f64] {
-        self.last().nodes()
-    }
-
-    fn at_nodes(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-        mut visit: impl FnMut(usize, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>),
-    ) {
-        self.last().at_nodes(q0, h, &mut visit);
-    }
-
-    fn between(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-        share: f64,
-    ) -> Option<[SVector<L::Scalar, N>; 2]> {
-        self.last().between(q0, h, share)
-    }
-
-    fn velocity(&self, time: f64, state: &State<L::Scalar, N>) -> Result<SVector<L::Scalar, N>, StepError> {
-        self.last().velocity(self.choice.system, time, state)
-    }
-
-    fn beginning(
-        &self,
-        time: f64,
-        state: &State<L::Scalar, N>,
-        mean: &SVector<L::Scalar, N>,
-        sizes: [L::Scalar; 2],
-    ) -> Result<State<L::Scalar, N>, StepError> {
-        self.last().beginning(self.choice.system, time, state, mean, sizes)
+    fn last_step(&self) -> &dyn LastStep<L, N> {
+        self.last()
     }
 }

@@ -1,12 +1,9 @@
 //! Which methods a choice is among, and their steps.
 
-use nalgebra::SVector;
-
 use super::Method;
 use crate::rules::{Fitted, FittedTrapezoidal, Gauss, Midpoint, SelfAdjoint, Solver, Trapezoidal};
-use crate::run::between::beginning;
+use crate::run::last_step::{LastStep, Remembered};
 use crate::run::{Composition, Explicit, Splitting};
-use crate::step::flow::velocity;
 use crate::step::{Border, Flow, Fused, LinearizedStep, Memory, State, Step, StepError};
 use crate::system::{ActingForce, ForcedLagrangian, Lagrangian};
 
@@ -76,52 +73,6 @@ pub trait MethodStep<L: Lagrangian<N>, const N: usize> {
     }
 }
 
-/// A function called with the index of a node, with q there and with v.
-type Visit<'v, S, const N: usize> = dyn FnMut(usize, &SVector<S, N>, &SVector<S, N>) + 'v;
-
-/// The last step of a method as it can be looked into: what [`Memory`] has, of a method that is not known
-/// when the program is compiled.
-pub trait LastStep<L: Lagrangian<N>, const N: usize> {
-    /// Shares of the step at which the method itself knows q and v.
-    fn nodes(&self) -> &'static [f64];
-
-    /// Calls `visit` with q and v there; the step led from `q0` by `h`.
-    fn at_nodes(&self, q0: &SVector<L::Scalar, N>, h: L::Scalar, visit: &mut Visit<'_, L::Scalar, N>);
-
-    /// (q, v) at a share of the step, by the method's own polynomial.
-    fn between(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-        share: f64,
-    ) -> Option<[SVector<L::Scalar, N>; 2]>;
-
-    /// The velocity of a state of the run, `elapsed` after the time of `system`.
-    ///
-    /// # Errors
-    /// Those of [`State::velocity`].
-    fn velocity(
-        &self,
-        system: &L,
-        elapsed: f64,
-        state: &State<L::Scalar, N>,
-    ) -> Result<SVector<L::Scalar, N>, StepError>;
-
-    /// Where a step leads from `state`, from which the last one was taken, `elapsed` after the time of
-    /// `system`; `mean` is the mean velocity of that, `sizes` its size and that of this one.
-    ///
-    /// # Errors
-    /// Those of the step.
-    fn beginning(
-        &self,
-        system: &L,
-        elapsed: f64,
-        state: &State<L::Scalar, N>,
-        mean: &SVector<L::Scalar, N>,
-        sizes: [L::Scalar; 2],
-    ) -> Result<State<L::Scalar, N>, StepError>;
-}
-
 /// The methods of `M`, and splittings into kicks and drifts: for systems whose trapezoidal rule is
 /// [`Explicit`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -146,7 +97,7 @@ pub enum Composed<L: Fused<R, N> + Flow<R, N>, R: SelfAdjoint, const N: usize> {
 /// Steps by `M` of one size, with what they keep.
 pub struct OfSize<L: Flow<M, N>, M, const N: usize> {
     h: L::Scalar,
-    memory: L::RunMemory,
+    memory: Remembered<M, L::RunMemory>,
 }
 
 impl<L: Flow<M, N>, M, const N: usize> OfSize<L, M, N> {
@@ -157,7 +108,7 @@ impl<L: Flow<M, N>, M, const N: usize> OfSize<L, M, N> {
     /// Lets go of the last state; of a linear equation all else belongs to the step size.
     fn forget(&mut self, is_linear: bool) {
         if is_linear {
-            self.memory.change_state();
+            self.memory.0.change_state();
         } else {
             self.memory = Default::default();
         }
@@ -170,46 +121,7 @@ impl<L: Flow<M, N>, M, const N: usize> OfSize<L, M, N> {
         elapsed: f64,
         state: &State<L::Scalar, N>,
     ) -> Result<Step<L::Scalar, N>, StepError> {
-        self.memory.advance_later(system, elapsed, state, self.h)
-    }
-}
-
-impl<L: Flow<M, N>, M, const N: usize> LastStep<L, N> for OfSize<L, M, N> {
-    fn nodes(&self) -> &'static [f64] {
-        <L::RunMemory as Memory<L, M, N>>::NODES
-    }
-
-    fn at_nodes(&self, q0: &SVector<L::Scalar, N>, h: L::Scalar, visit: &mut Visit<'_, L::Scalar, N>) {
-        self.memory.at_nodes(q0, h, visit);
-    }
-
-    fn between(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-        share: f64,
-    ) -> Option<[SVector<L::Scalar, N>; 2]> {
-        self.memory.between(q0, h, share)
-    }
-
-    fn velocity(
-        &self,
-        system: &L,
-        elapsed: f64,
-        state: &State<L::Scalar, N>,
-    ) -> Result<SVector<L::Scalar, N>, StepError> {
-        velocity(system, &self.memory, elapsed, state)
-    }
-
-    fn beginning(
-        &self,
-        system: &L,
-        elapsed: f64,
-        state: &State<L::Scalar, N>,
-        mean: &SVector<L::Scalar, N>,
-        sizes: [L::Scalar; 2],
-    ) -> Result<State<L::Scalar, N>, StepError> {
-        beginning(system, &self.memory, elapsed, state, mean, sizes)
+        self.memory.0.advance_later(system, elapsed, state, self.h)
     }
 }
 
@@ -250,9 +162,9 @@ impl<L: Fused<R, N> + Flow<R, N>, R: SelfAdjoint, const N: usize> MethodStep<L, 
 
     fn last(&self) -> &dyn LastStep<L, N> {
         match self {
-            Self::Rule(step) => step,
-            Self::KahanLi6(step) => step,
-            Self::KahanLi8(step) => step,
+            Self::Rule(step) => &step.memory,
+            Self::KahanLi6(step) => &step.memory,
+            Self::KahanLi8(step) => &step.memory,
         }
     }
 }
@@ -329,7 +241,7 @@ macro_rules! added {
 
             fn last(&self) -> &dyn LastStep<L, N> {
                 match self {
-                    $(Self::$method(step) => step,)*
+                    $(Self::$method(step) => &step.memory,)*
                     Self::Other(step) => step.last(),
                 }
             }
@@ -405,14 +317,14 @@ fn staged<L: ForcedLagrangian<N>, const N: usize, const S: usize>(
     let taken = step.advance(system, elapsed, state)?;
     let iterations = f64::from(taken.report.iterations);
     let entries = |stages: usize| (stages * N * stages * N) as f64;
-    let by_stage = match step.memory.solver() {
+    let by_stage = match step.memory.0.solver() {
         Solver::FixedPoint => iterations,
         Solver::Simplified => iterations * (BY_MODES + SOLVING * entries(1)),
         // All stages are differentiated before each iteration and after the last, and their matrix is
         // factored.
         Solver::Newton => DERIVATIVE + iterations * (DERIVATIVE + FACTORING * entries(S)),
     };
-    Ok(Taken { step: taken, evaluations: S as f64 * by_stage, unresolved: Some(step.memory.unresolved()) })
+    Ok(Taken { step: taken, evaluations: S as f64 * by_stage, unresolved: Some(step.memory.0.unresolved()) })
 }
 
 added! { WithSplittings: Explicit,
@@ -450,7 +362,7 @@ fn solve_nothing<L: Explicit<N>, const N: usize, const S: usize>(
 }
 
 fn forget_stages<L: ForcedLagrangian<N>, const N: usize, const S: usize>(step: &mut OfSize<L, Gauss<S>, N>) {
-    step.memory.forget();
+    step.memory.0.forget();
 }
 
 fn leave_stages<L: ForcedLagrangian<N>, const N: usize, const S: usize>(
@@ -459,5 +371,5 @@ fn leave_stages<L: ForcedLagrangian<N>, const N: usize, const S: usize>(
     steps: u64,
     weight: f64,
 ) {
-    step.memory.leave(error, steps, weight);
+    step.memory.0.leave(error, steps, weight);
 }
