@@ -10,11 +10,27 @@ pub struct Singularity {
     pub regular: f64,
 }
 
-/// Makes a set of methods of `f64`. A row is a name and the method's, and if it may lack a derivative its
-/// [`Singularity`].
+/// The zeros of a function of one number, and what becomes of the digits of its argument.
+#[derive(Clone, Copy)]
+pub enum Zeros {
+    /// At 0, if that is an argument, and digits are lost elsewhere, as by sin x.
+    AtZero,
+    /// At 0 alone, and digits are kept, as by √x.
+    OfRoot,
+    /// Nowhere, as of eˣ.
+    Nowhere,
+    /// Elsewhere, as of cos x.
+    Elsewhere,
+}
+
+/// Makes a set of methods of `f64`. A row is a name and the method's; its [`Zeros`] unless they are at 0; and
+/// if it may lack a derivative its [`Singularity`].
 macro_rules! methods {
     ($(#[$doc:meta])* $set:ident: $type:ty {
-        $($name:ident $method:ident $(, singular as $singular:ident, regular at $regular:literal)?;)*
+        $(
+            $name:ident $method:ident
+            $(, zeros $zeros:ident)? $(, singular as $singular:ident, regular at $regular:literal)?;
+        )*
     }) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -46,13 +62,20 @@ macro_rules! methods {
                 }
             }
 
+            /// Where it is 0.
+            pub fn zeros(self) -> Zeros {
+                match self {
+                    $($(Self::$name => Zeros::$zeros,)?)*
+                    _ => Zeros::AtZero,
+                }
+            }
+
             /// Where it may lack a derivative.
             pub fn singularity(self) -> Option<Singularity> {
                 match self {
                     $($(Self::$name => {
                         Some(Singularity { name: stringify!($singular), regular: $regular })
                     })?)*
-                    #[allow(unreachable_patterns, reason = "of a set without")]
                     _ => None,
                 }
             }
@@ -63,30 +86,30 @@ macro_rules! methods {
 methods! {
     /// Elementary functions of one number.
     Function: fn(f64) -> f64 {
-        Recip recip, singular as Division, regular at 1.0;
-        Exp exp;
-        Exp2 exp2;
+        Recip recip, zeros Nowhere, singular as Division, regular at 1.0;
+        Exp exp, zeros Nowhere;
+        Exp2 exp2, zeros Nowhere;
         ExpM1 exp_m1;
-        Ln ln, singular as Logarithm, regular at 1.0;
-        Log2 log2, singular as Logarithm, regular at 1.0;
-        Log10 log10, singular as Logarithm, regular at 1.0;
+        Ln ln, zeros Elsewhere, singular as Logarithm, regular at 1.0;
+        Log2 log2, zeros Elsewhere, singular as Logarithm, regular at 1.0;
+        Log10 log10, zeros Elsewhere, singular as Logarithm, regular at 1.0;
         Ln1p ln_1p, singular as LogarithmOfSum, regular at 1.0;
         Sin sin;
-        Cos cos;
+        Cos cos, zeros Elsewhere;
         Tan tan;
         Asin asin, singular as ArcSine, regular at 0.0;
-        Acos acos, singular as ArcSine, regular at 0.0;
+        Acos acos, zeros Elsewhere, singular as ArcSine, regular at 0.0;
         Atan atan;
         Sinh sinh;
-        Cosh cosh;
+        Cosh cosh, zeros Nowhere;
         Tanh tanh;
         Asinh asinh;
         Acosh acosh, singular as AreaCosine, regular at 2.0;
         Atanh atanh, singular as AreaTangent, regular at 0.0;
-        Sqrt sqrt, singular as SquareRoot, regular at 1.0;
-        Cbrt cbrt, singular as CubeRoot, regular at 1.0;
-        Abs abs;
-        Signum signum;
+        Sqrt sqrt, zeros OfRoot, singular as SquareRoot, regular at 1.0;
+        Cbrt cbrt, zeros OfRoot, singular as CubeRoot, regular at 1.0;
+        Abs abs, zeros OfRoot;
+        Signum signum, zeros Nowhere;
     }
 }
 

@@ -17,7 +17,7 @@ const FOLDERS: [(&str, &str); 3] =
 const EXAMPLES: [(&str, &[&str], usize); 5] = [
     ("a rule,", &["one_sided", "OneSided"], 7),
     ("a function of the block,", &["constraints", "Constraints", "ConstraintGradients"], 10),
-    ("a function, as", &["cbrt", "Cbrt", "CubeRoot"], 8),
+    ("a function, as", &["cbrt", "Cbrt", "CubeRoot"], 7),
     ("an option,", &["multiply_add", "fused", "fused_multiply_add"], 10),
     ("a method of runs,", &["blanes_moan_6", "BlanesMoan6"], 6),
 ];
