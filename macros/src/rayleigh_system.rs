@@ -18,6 +18,7 @@ pub mod differentiate;
 mod dual;
 mod emit;
 mod fallback;
+mod functions;
 pub mod graph;
 mod groups;
 pub mod hygiene;

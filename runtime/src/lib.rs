@@ -343,12 +343,10 @@ mod attributes {
 ///
 /// | methods of floating-point numbers, as `x.sin()`, `f64::sin(x)` or `.map(f64::sin)` | |
 /// |---|---|
-/// | powers and roots | `powi` `powf` `sqrt` `cbrt` `recip` `hypot` |
-/// | exponentials and logarithms | `exp` `exp2` `exp_m1` `ln` `log` `log2` `log10` `ln_1p` |
-/// | trigonometric | `sin` `cos` `tan` `sin_cos` `asin` `acos` `atan` `atan2` `to_radians` `to_degrees` |
-/// | hyperbolic | `sinh` `cosh` `tanh` `asinh` `acosh` `atanh` |
+#[doc = concat!("| those of [`Elementary`] | ", functions!(names!()), "`sin_cos` |")]
+/// | other powers and units | `recip` `to_radians` `to_degrees` |
 /// | piecewise | `abs` `signum` `copysign` `min` `max` `clamp` |
-/// | sums | `mul_add` `midpoint`, `sum()` and `product()` of iterators |
+/// | sums | `midpoint`, `sum()` and `product()` of iterators |
 /// | of fields and constants alone | `floor` `ceil` `round` `trunc` `fract` `rem_euclid` `div_euclid`, `%` |
 /// | questions, on the value alone | `is_nan` `is_finite` `is_infinite` `is_normal` `is_subnormal` `is_sign_positive` `is_sign_negative` `total_cmp`, `==` `<` `partial_cmp` |
 ///
@@ -410,6 +408,7 @@ pub use attributes::rayleigh_system;
 pub use attributes::differentiable;
 
 pub use numbers::Elementary;
+use numbers::{functions, names};
 #[doc(inline)]
 pub use rules::{Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, Trapezoidal};
 #[doc(inline)]

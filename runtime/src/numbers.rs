@@ -28,6 +28,7 @@ pub use derivatives::{
     CancellingTerms, CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, Variations,
 };
 pub use elementary::Elementary;
+pub(crate) use elementary::functions::{functions, names, one_by_one};
 pub use lanes::{LaneVector, Lanes, Mask};
 pub use linear::{Banded, EntriesOfMembers, Factored, MatricesOfMembers, NewtonMatrix};
 pub(crate) use linear::{determinant_sign, dot};

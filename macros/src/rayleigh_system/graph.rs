@@ -28,8 +28,9 @@ use syn::Expr;
 use super::hygiene::{MARK, unmarked};
 use super::syntax::regrouped;
 
+pub use super::functions::{Function, PairFunction, Predicate};
 pub use before::before_the_run;
-pub use operation::{Comparison, Function, Operation, PairFunction, Predicate};
+pub use operation::{Comparison, Operation};
 
 /// An expression of a [`Graph`]. Arguments are smaller than what is made of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

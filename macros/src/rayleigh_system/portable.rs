@@ -15,17 +15,7 @@ use syn::visit_mut::{self, VisitMut};
 use syn::{Block, Expr, ExprMethodCall, ExprPath, Ident, ImplItem, ItemFn, ItemImpl, parse_quote};
 use syn::{parse_quote_spanned, spanned::Spanned};
 
-/// Methods that the standard library has and `core` has not: those of the runtime's `Elementary`.
-const ELEMENTARY: [&str; 28] = [
-    "sqrt", "cbrt", "exp", "exp2", "exp_m1", "ln", "log2", "log10", "ln_1p", "log", "sin", "cos", "tan",
-    "sin_cos", "asin", "acos", "atan", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "powi", "powf",
-    "atan2", "hypot", "mul_add",
-];
-
-/// Whether the method is one of the runtime's.
-pub fn is_elementary(method: &str) -> bool {
-    ELEMENTARY.contains(&method)
-}
+use super::functions::is_elementary;
 
 /// The user's block, `functions` of it with the runtime's elementary functions.
 pub fn block(item: &ItemImpl, functions: &[Ident]) -> ItemImpl {

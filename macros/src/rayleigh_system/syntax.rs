@@ -149,47 +149,6 @@ pub fn jumps(method: &Ident) -> bool {
     ROUNDING.iter().chain(EUCLIDEAN).any(|name| method == name)
 }
 
-/// Methods of floating-point numbers that a user may call like functions, as in C.
-pub const METHODS: &[&str] = &[
-    "abs",
-    "acos",
-    "acosh",
-    "asin",
-    "asinh",
-    "atan",
-    "atan2",
-    "atanh",
-    "cbrt",
-    "clamp",
-    "copysign",
-    "cos",
-    "cosh",
-    "exp",
-    "exp2",
-    "exp_m1",
-    "hypot",
-    "ln",
-    "ln_1p",
-    "log",
-    "log10",
-    "log2",
-    "max",
-    "min",
-    "mul_add",
-    "powf",
-    "powi",
-    "recip",
-    "signum",
-    "sin",
-    "sin_cos",
-    "sinh",
-    "sqrt",
-    "tan",
-    "tanh",
-    "to_degrees",
-    "to_radians",
-];
-
 /// Functions of the standard library that work on any type, by their last two segments; and those of
 /// integers.
 pub fn is_function_of_std(path: &Path) -> bool {

@@ -3,8 +3,8 @@
 use syn::visit::{self, Visit};
 use syn::{Expr, ImplItemFn, ReturnType, Stmt};
 
+use super::functions::is_known;
 use super::model::{Source, System};
-use super::syntax::METHODS;
 
 /// Whether rustc surely refuses one of the functions, since it ends without the value that it owes.
 pub fn is_owed_in(source: &Source, system: &System<'_>) -> bool {
@@ -38,7 +38,7 @@ impl<'ast> Visit<'ast> for Escapes {
             | Expr::Macro(_)
             | Expr::Try(_) => true,
             Expr::Unsafe(_) | Expr::Async(_) | Expr::Verbatim(_) => true,
-            Expr::MethodCall(call) => METHODS.iter().all(|method| call.method != method),
+            Expr::MethodCall(call) => !is_known(&call.method.to_string()),
             _ => false,
         };
         visit::visit_expr(self, expression);

@@ -12,8 +12,10 @@ mod lift;
 mod operators;
 mod primitive;
 mod real;
+mod refused;
 mod rounded;
 mod second_order;
+mod seeds;
 mod singular;
 
 use nalgebra::{Const, SMatrix};
@@ -25,12 +27,10 @@ pub use derivatives::{
     by_input, covector_derivatives, covector_variation, derivatives, gradient, variations,
 };
 pub use fields::{differential, hessian, jacobian};
-pub use lift::{
-    Beside, Differentiated, FromCast, Given, Integer, Lift, Lower, Number, Remainder, Roundable, integer,
-    lift, lower, remainder,
-};
+pub use lift::{Beside, FromCast, Given, Integer, Lift, Lower, Number, integer, lift, lower};
 pub use primitive::Primitive;
 pub use real::Real;
+pub use refused::{Differentiated, Remainder, Roundable, remainder};
 pub use rounded::{Rounded, terms_of_force, terms_of_lagrangian, terms_of_rayleigh};
 pub use second_order::{hessian_along, hessian_of_product};
 

@@ -10,7 +10,9 @@
 //! here.
 
 use crate::numbers::Scalar;
+use functions::functions;
 
+pub(crate) mod functions;
 #[cfg(all(feature = "std", not(feature = "libm")))]
 mod platform;
 #[cfg(any(not(feature = "std"), feature = "libm"))]
@@ -18,70 +20,8 @@ mod portable;
 #[cfg(any(test, not(feature = "std"), feature = "libm"))]
 mod single;
 
-/// Calls `$continue!` with every elementary function that the standard library has and `core` has not.
-macro_rules! functions {
-    ($continue:ident!($($first:tt)*)) => {
-        $continue! { $($first)*
-            /// √x, rounded correctly.
-            sqrt()
-            /// ∛x.
-            cbrt()
-            /// eˣ.
-            exp()
-            /// 2ˣ.
-            exp2()
-            /// eˣ − 1.
-            exp_m1()
-            /// Natural logarithm.
-            ln()
-            /// Logarithm to base 2.
-            log2()
-            /// Logarithm to base 10.
-            log10()
-            /// ln(1 + x).
-            ln_1p()
-            /// Logarithm to any base.
-            log(base: Self)
-            /// Sine.
-            sin()
-            /// Cosine.
-            cos()
-            /// Tangent.
-            tan()
-            /// Arcsine.
-            asin()
-            /// Arccosine.
-            acos()
-            /// Arctangent.
-            atan()
-            /// Hyperbolic sine.
-            sinh()
-            /// Hyperbolic cosine.
-            cosh()
-            /// Hyperbolic tangent.
-            tanh()
-            /// Inverse hyperbolic sine.
-            asinh()
-            /// Inverse hyperbolic cosine.
-            acosh()
-            /// Inverse hyperbolic tangent.
-            atanh()
-            /// xⁿ, n an integer.
-            powi(n: i32)
-            /// xⁿ, n a real number.
-            powf(n: Self)
-            /// Angle of the point (other, self).
-            atan2(other: Self)
-            /// √(self² + other²), without overflow on the way.
-            hypot(other: Self)
-            /// self·a + b, rounded once.
-            mul_add(a: Self, b: Self)
-        }
-    };
-}
-
 macro_rules! elementary {
-    ($($(#[$doc:meta])* $name:ident($($argument:ident: $type:tt),*))*) => {
+    ($($(#[$doc:meta])* $name:ident($($argument:ident: $type:tt),*) = $double:path, $single:path;)*) => {
         /// The elementary functions of the scalar types, under the names of the standard library.
         ///
         /// With `std`, methods of `f64` and `f32` come before those of a trait, and `x.sin()` is the standard
@@ -188,6 +128,3 @@ impl<S: Scalar> BranchFree<S> {
 }
 
 functions!(elementary!());
-
-#[cfg(all(feature = "std", not(feature = "libm")))]
-use functions;

@@ -5,16 +5,14 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::numbers::{Scalar, Singular};
+use crate::numbers::{Mask, MemberVector, Scalar, Singular};
 
 mod banded;
 mod dense;
 mod determinant;
-mod of_members;
 
 pub use banded::Banded;
 pub(crate) use determinant::determinant_sign;
-pub use of_members::{EntriesOfMembers, MatricesOfMembers};
 
 mod sealed {
     pub trait Sealed {}
@@ -74,6 +72,43 @@ pub trait Factored<S: Scalar, const N: usize>: Copy + core::fmt::Debug {
     fn solve(&self, right: &SVector<S, N>) -> SVector<S, N>;
 }
 
+/// The matrices of W members, made ready to solve with.
+pub trait MatricesOfMembers<S: Scalar, const N: usize, const W: usize>: Copy + core::fmt::Debug {
+    /// The matrix of one member.
+    type Matrix: NewtonMatrix<S, N>;
+
+    /// The entries alone, as they are computed: row by row, of a band those within it.
+    type Entries: Copy + core::fmt::Debug;
+
+    /// All entries 0, in the factors too.
+    fn zero() -> Self;
+
+    /// Writes the matrix of one member.
+    fn write(
+        &mut self,
+        member: usize,
+        matrix: &Self::Matrix,
+        factored: &<Self::Matrix as NewtonMatrix<S, N>>::Factored,
+    );
+
+    /// [`Factored::solve`] of each.
+    fn solve(&self, right: &MemberVector<S, N, W>) -> MemberVector<S, N, W>;
+
+    /// [`NewtonMatrix::magnitudes`] of each.
+    fn magnitudes(&self, v: &MemberVector<S, N, W>) -> MemberVector<S, N, W>;
+
+    /// [`NewtonMatrix::solve`] of each, and a mask: false for members with a matrix that has to be looked at
+    /// more closely.
+    fn solution(entries: &Self::Entries, right: &MemberVector<S, N, W>) -> (MemberVector<S, N, W>, Mask<W>);
+
+    /// [`NewtonMatrix::magnitudes`] of each.
+    fn magnitudes_of(entries: &Self::Entries, v: &MemberVector<S, N, W>) -> MemberVector<S, N, W>;
+}
+
+/// The entries of the matrices `M` of W members.
+pub type EntriesOfMembers<M, S, const N: usize, const W: usize> =
+    <<M as NewtonMatrix<S, N>>::OfMembers<W> as MatricesOfMembers<S, N, W>>::Entries;
+
 /// a·b, entry by entry: nalgebra's is unrolled, a thousand operations to compile in every program.
 #[inline]
 pub(crate) fn dot<S: Scalar, const N: usize>(a: &SVector<S, N>, b: &SVector<S, N>) -> S {
@@ -120,3 +155,6 @@ pub(crate) fn solve_apart<S: Scalar, const N: usize>(
 pub(crate) fn require_regular<S: Scalar, const N: usize>(matrix: &SMatrix<S, N, N>) -> Result<(), Singular> {
     solve_apart(matrix, &SVector::zeros()).map(|_| ())
 }
+
+#[cfg(test)]
+mod tests;

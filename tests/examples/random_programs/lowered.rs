@@ -3,7 +3,7 @@
 
 mod parameter;
 
-use super::batch::Computed;
+use super::computed::Computed;
 use super::number::Number;
 use super::point::Point;
 use super::rayleigh_system::differentiate::Differentiation;
@@ -164,16 +164,7 @@ impl Expressions {
                         Comparison::NotEqual => !equal,
                     })
                 }
-                Operation::Is(predicate, x) => {
-                    let x = at(x).value();
-                    truth(match predicate {
-                        Predicate::Nan => x.is_nan(),
-                        Predicate::Finite => x.is_finite(),
-                        Predicate::Infinite => x.is_infinite(),
-                        Predicate::SignNegative => x.is_sign_negative(),
-                        Predicate::SignPositive => x.is_sign_positive(),
-                    })
-                }
+                Operation::Is(predicate, x) => truth(Predicate::method(predicate)(at(x).value())),
                 Operation::Not(a) => truth(!holds(a)),
                 Operation::And(a, b) => truth(holds(a) && holds(b)),
                 Operation::Or(a, b) => truth(holds(a) || holds(b)),

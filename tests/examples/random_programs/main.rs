@@ -19,6 +19,7 @@
 mod batch;
 mod beside;
 mod class;
+mod computed;
 mod engine;
 mod expansion;
 mod expected;

@@ -2,12 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::batch::Computed;
 use super::generate::VIEWS_FROM;
 use super::point::{POINTS, Point, points};
 use super::print;
 use super::syntax::{Program, view};
-use super::trial::Trial;
 
 /// What a program is in lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -146,22 +144,4 @@ pub fn module(program: &Program, index: usize, way: Way) -> String {
         block(program, way),
         way.call(index, view)
     )
-}
-
-/// The trial of what lanes computed: of each, whether it is what its member does alone, and whether it was
-/// moved.
-pub fn judged(seed: u64, computed: Option<&Computed>) -> Trial {
-    let Some(lanes) = computed.and_then(|computed| computed.lanes.as_ref()) else {
-        // The potential at (q, q) may panic where the program does not.
-        return Trial::Discarded;
-    };
-    let acts = |told: f64| told == 2.0;
-    match lanes.iter().position(|told| *told == 0.0) {
-        Some(lane) => Trial::Failed(format!("lanes: lane {lane} of {seed} is another")),
-        None => Trial::Agrees {
-            compared: lanes.iter().filter(|told| acts(**told)).count(),
-            near_branch: 0,
-            too_large: 0,
-        },
-    }
 }

@@ -149,7 +149,7 @@ pub fn compiled(count: u64, seed: u64, engine: &str) -> Result<usize, String> {
                 }
                 Some(error) => trial::told_by_rustc(error),
                 None if members::Way::named(engine).is_some() => {
-                    members::judged(program.seed, outcome.computed.get(&(index, 0)))
+                    trial::judged_in_lanes(program.seed, outcome.computed.get(&(index, 0)))
                 }
                 None => trial::judged(program, &all_expected[index], |point| {
                     outcome.computed.get(&(index, point))

@@ -2,7 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use super::batch::Computed;
+use super::computed::Computed;
 use super::engine::options;
 use super::expansion::{self, Reaction};
 use super::expected::{self, Expected, Skipped};
@@ -91,6 +91,24 @@ pub fn judged<'c>(
         }
     }
     Trial::Agrees { compared, near_branch, too_large }
+}
+
+/// The trial of what lanes computed: of each, whether it is what its member does alone, and whether it was
+/// moved.
+pub fn judged_in_lanes(seed: u64, computed: Option<&Computed>) -> Trial {
+    let Some(lanes) = computed.and_then(|computed| computed.lanes.as_ref()) else {
+        // The potential at (q, q) may panic where the program does not.
+        return Trial::Discarded;
+    };
+    let acts = |told: f64| told == 2.0;
+    match lanes.iter().position(|told| *told == 0.0) {
+        Some(lane) => Trial::Failed(format!("lanes: lane {lane} of {seed} is another")),
+        None => Trial::Agrees {
+            compared: lanes.iter().filter(|told| acts(**told)).count(),
+            near_branch: 0,
+            too_large: 0,
+        },
+    }
 }
 
 /// A program tried without rustc: its graph evaluated. A panic is a failure, of the study if not of the

@@ -1,6 +1,6 @@
 //! Whether what was computed is what is expected.
 
-use super::batch::Computed;
+use super::computed::Computed;
 use super::expected::{Derivatives, Expected, Skipped};
 use super::syntax::Program;
 

@@ -16,15 +16,6 @@ use super::{beside, kept};
 use crate::project;
 use tree::{Tree, Uses};
 
-/// Circles that stand today: modules each of which uses every other, by itself or through others. The list
-/// only ever gets shorter: a new circle is taken apart, not entered here, and one that is gone is struck out.
-const KNOWN: &[&str] = &[
-    "runtime/numbers/dual: {derivatives, singular}",
-    "runtime/numbers/dual: {lift, real}",
-    "runtime/numbers/linear: {banded, dense, of_members}",
-    "tests/examples/random_programs: {batch, lowered, members, trial, verdict}",
-];
-
 /// The modules that `from` uses, by itself or through others.
 fn reached<'u>(uses: &'u Uses, from: &'u str) -> BTreeSet<&'u str> {
     let mut found = BTreeSet::new();
@@ -63,7 +54,7 @@ fn circles(name: &str, tree: &Tree) -> BTreeMap<String, String> {
     circles
 }
 
-/// New circles, with the files and paths that make them, and known ones that are gone.
+/// The circles of all crates, with the files and paths that make them.
 pub fn check(shell: &Shell) -> Result<Vec<String>> {
     let mut roots = project::files(shell, ".rs")?;
     roots.retain(|path| path.ends_with("/lib.rs") || path.ends_with("/main.rs"));
@@ -74,7 +65,7 @@ pub fn check(shell: &Shell) -> Result<Vec<String>> {
         found.extend(circles.chunks_exact(2).map(|pair| (pair[0].clone(), pair[1].clone())));
     }
     ensure!(modules > 700, "{modules} modules alone were looked at");
-    Ok(differences(&found, KNOWN))
+    Ok(found.iter().map(|(circle, arrows)| format!("to be taken apart: {circle}\n{arrows}")).collect())
 }
 
 /// The number of modules of a crate, given by its root's file, and in turn its circles and what makes them.
@@ -87,14 +78,6 @@ fn of_crate(root: &str) -> Result<Vec<String>> {
         let circles = circles(name.trim_end_matches("/src"), &tree).into_iter().flat_map(<[_; 2]>::from);
         Ok([tree.modules.len().to_string()].into_iter().chain(circles).collect())
     })
-}
-
-/// Differences between the circles that were found and those that are known.
-fn differences(found: &BTreeMap<String, String>, known: &[&str]) -> Vec<String> {
-    let new = found.iter().filter(|(circle, _)| !known.contains(&circle.as_str()));
-    let new = new.map(|(circle, arrows)| format!("a new circle, to be taken apart: {circle}\n{arrows}"));
-    let gone = known.iter().filter(|circle| !found.contains_key(**circle));
-    new.chain(gone.map(|circle| format!("gone, to be struck out in circles.rs: {circle}"))).collect()
 }
 
 #[cfg(test)]

@@ -18,6 +18,7 @@
 use std::collections::HashMap;
 
 use super::super::differentiate::{Order, partials::partials};
+use super::super::functions::Zeros;
 use super::super::graph::{Function, MOST_EXPRESSIONS, PairFunction};
 use super::*;
 
@@ -106,15 +107,11 @@ impl Deriving<'_> {
             Operation::Negate(a) => of(a),
             Operation::Power(a, n) if n > 0 => of(a),
             Operation::Power(a, _) => of(a).not_vanishing(),
-            Operation::Function(function, x) => match function {
-                Function::Abs | Function::Sqrt | Function::Cbrt => of(x),
-                Function::Recip | Function::Exp | Function::Exp2 | Function::Cosh | Function::Signum => {
-                    of(x).not_vanishing()
-                }
-                Function::Cos | Function::Ln | Function::Log2 | Function::Log10 | Function::Acos => {
-                    of(x).unless_nonzero(Nonzero)
-                }
-                _ => of(x).unless_nonzero(Vanishing),
+            Operation::Function(function, x) => match function.zeros() {
+                Zeros::OfRoot => of(x),
+                Zeros::Nowhere => of(x).not_vanishing(),
+                Zeros::Elsewhere => of(x).unless_nonzero(Nonzero),
+                Zeros::AtZero => of(x).unless_nonzero(Vanishing),
             },
             Operation::Pair(PairFunction::Hypot, a, b) | Operation::Select(_, a, b) => of(a).max(of(b)),
             Operation::Pair(PairFunction::Copysign, a, _) => of(a),

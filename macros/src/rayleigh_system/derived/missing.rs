@@ -5,6 +5,7 @@
 
 use std::collections::HashMap;
 
+use super::super::functions::Singularity;
 use super::super::graph::{Function, PairFunction};
 use super::*;
 
@@ -36,12 +37,9 @@ pub struct Place {
 
 /// [`Place`] on a graph.
 struct Singular {
-    /// Its name in the runtime.
-    name: &'static str,
+    singularity: Singularity,
     argument: Node,
     second: Option<Node>,
-    /// An argument at which it has one.
-    regular: f64,
 }
 
 impl Deriving<'_> {
@@ -84,7 +82,7 @@ impl Deriving<'_> {
             return (written, outputs);
         }
         let conditions = self.conditions(root, &nodes);
-        for (node, Singular { name, argument, second, regular }) in singular {
+        for (node, Singular { singularity: Singularity { name, regular }, argument, second }) in singular {
             // Nothing where only conditions hold it: those are not differentiated.
             let Some(&condition) = conditions.get(&node) else { continue };
             let argument = match condition {
@@ -106,36 +104,24 @@ impl Deriving<'_> {
 
     /// The operation, if it can lack a derivative by q, v or u.
     fn singular(&self, node: Node) -> Option<Singular> {
-        let of = |name, argument, regular| Singular { name, argument, second: None, regular };
-        let found = match self.graph.operation(node) {
-            Operation::Function(function, s) => match function {
-                Function::Sqrt => of("SquareRoot", s, 1.0),
-                Function::Cbrt => of("CubeRoot", s, 1.0),
-                Function::Ln | Function::Log2 | Function::Log10 => of("Logarithm", s, 1.0),
-                Function::Ln1p => of("LogarithmOfSum", s, 1.0),
-                Function::Recip => of("Division", s, 1.0),
-                Function::Asin | Function::Acos => of("ArcSine", s, 0.0),
-                Function::Acosh => of("AreaCosine", s, 2.0),
-                Function::Atanh => of("AreaTangent", s, 0.0),
-                _ => return None,
-            },
-            Operation::Divide(_, s) => of("Division", s, 1.0),
-            Operation::Pair(PairFunction::Powf, s, y) => {
-                let is_smooth = |y: f64| y >= 0.0 && y % 1.0 == 0.0;
-                if self.graph.constant_value(y).is_some_and(is_smooth) {
-                    return None;
-                }
-                Singular { second: Some(y), ..of("Power", s, 1.0) }
+        let (singularity, argument, second) = match self.graph.operation(node) {
+            Operation::Function(function, s) => (function.singularity()?, s, None),
+            Operation::Pair(PairFunction::Powf, _, y)
+                if self.graph.constant_value(y).is_some_and(|y| y >= 0.0 && y % 1.0 == 0.0) =>
+            {
+                return None;
             }
-            Operation::Pair(PairFunction::Atan2, y, x) => Singular { second: Some(x), ..of("Angle", y, 1.0) },
-            Operation::Pair(PairFunction::Hypot, x, y) => {
-                Singular { second: Some(y), ..of("Length", x, 1.0) }
-            }
-            Operation::Power(s, n) if n < 0 => of("Division", s, 1.0),
+            Operation::Pair(function, s, second) => (function.singularity()?, s, Some(second)),
+            Operation::Divide(_, s) => (Function::Recip.singularity()?, s, None),
+            Operation::Power(s, n) if n < 0 => (Function::Recip.singularity()?, s, None),
             _ => return None,
         };
         let depends = |node: Node| self.graph.depends(node);
-        (depends(found.argument) || found.second.is_some_and(depends)).then_some(found)
+        (depends(argument) || second.is_some_and(depends)).then_some(Singular {
+            singularity,
+            argument,
+            second,
+        })
     }
 
     /// The conditions that `nodes`, all that `root` is made of, stand under; nothing for those that are

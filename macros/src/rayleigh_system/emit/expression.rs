@@ -7,6 +7,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use syn::Ident;
 
+use super::super::functions::is_elementary;
 use super::super::graph::{Function, Graph, Node, Operation};
 use super::super::portable;
 use super::names::Names;
@@ -326,7 +327,7 @@ impl Writer<'_> {
         if self.is_branch_free[node.index()] && ["sin", "cos", "sin_cos", "exp"].contains(&method) {
             self.calls_elementary.set(true);
             quote!(#receiver.branch_free())
-        } else if is_number && self.is_portable && portable::is_elementary(method) {
+        } else if is_number && self.is_portable && is_elementary(method) {
             self.calls_elementary.set(true);
             quote!(#receiver.elementary())
         } else {

@@ -4,7 +4,7 @@
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::quote;
 
-use super::super::portable::is_elementary;
+use super::super::functions::is_elementary;
 
 /// Operations and calls of the longest function that is marked: more than LLVM inlines where it is asked to.
 const LONGEST: usize = 100;

@@ -1,6 +1,6 @@
 //! A tape: graphs evaluated on numbers, which is what the emitted code computes, without compiling it.
 
-use super::{Comparison, Function, Graph, Node, Operation, PairFunction, Predicate};
+use super::{Comparison, Graph, Node, Operation};
 
 /// The values of `roots` at (q, v), each operation's result passed through `rounded`. Truth values are 1 and
 /// 0.
@@ -40,11 +40,8 @@ pub fn values_of(
             Operation::Multiply(a, b) => at(a) * at(b),
             Operation::Divide(a, b) => at(a) / at(b),
             Operation::Negate(a) => -at(a),
-            Operation::Function(function, x) => elementary(function, at(x)),
-            Operation::Pair(PairFunction::Powf, a, b) => at(a).powf(at(b)),
-            Operation::Pair(PairFunction::Atan2, a, b) => at(a).atan2(at(b)),
-            Operation::Pair(PairFunction::Hypot, a, b) => at(a).hypot(at(b)),
-            Operation::Pair(PairFunction::Copysign, a, b) => at(a).copysign(at(b)),
+            Operation::Function(function, x) => function.method()(at(x)),
+            Operation::Pair(function, a, b) => function.method()(at(a), at(b)),
             Operation::MultiplyAdd(a, b, c) => at(a).mul_add(at(b), at(c)),
             Operation::Power(x, n) => at(x).powi(n),
             Operation::Select(condition, a, b) => {
@@ -65,16 +62,7 @@ pub fn values_of(
                     Comparison::NotEqual => a != b,
                 })
             }
-            Operation::Is(predicate, x) => {
-                let x = at(x);
-                truth(match predicate {
-                    Predicate::Nan => x.is_nan(),
-                    Predicate::Finite => x.is_finite(),
-                    Predicate::Infinite => x.is_infinite(),
-                    Predicate::SignNegative => x.is_sign_negative(),
-                    Predicate::SignPositive => x.is_sign_positive(),
-                })
-            }
+            Operation::Is(predicate, x) => truth(predicate.method()(at(x))),
             Operation::Not(a) => truth(at(a) == 0.0),
             Operation::And(a, b) => truth(at(a) != 0.0 && at(b) != 0.0),
             Operation::Or(a, b) => truth(at(a) != 0.0 || at(b) != 0.0),
@@ -93,34 +81,4 @@ pub fn values_of(
         }
     }
     roots.iter().map(|root| values[root.index()]).collect()
-}
-
-/// The elementary function at x.
-pub fn elementary(function: Function, x: f64) -> f64 {
-    match function {
-        Function::Recip => x.recip(),
-        Function::Exp => x.exp(),
-        Function::Exp2 => x.exp2(),
-        Function::ExpM1 => x.exp_m1(),
-        Function::Ln => x.ln(),
-        Function::Log2 => x.log2(),
-        Function::Log10 => x.log10(),
-        Function::Ln1p => x.ln_1p(),
-        Function::Sin => x.sin(),
-        Function::Cos => x.cos(),
-        Function::Tan => x.tan(),
-        Function::Asin => x.asin(),
-        Function::Acos => x.acos(),
-        Function::Atan => x.atan(),
-        Function::Sinh => x.sinh(),
-        Function::Cosh => x.cosh(),
-        Function::Tanh => x.tanh(),
-        Function::Asinh => x.asinh(),
-        Function::Acosh => x.acosh(),
-        Function::Atanh => x.atanh(),
-        Function::Sqrt => x.sqrt(),
-        Function::Cbrt => x.cbrt(),
-        Function::Abs => x.abs(),
-        Function::Signum => x.signum(),
-    }
 }

@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::Node;
+use super::{Function, Node, PairFunction, Predicate};
 
 /// An operation on earlier nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -116,90 +116,6 @@ impl Operation {
             Self::Select(a, b, c) | Self::MultiplyAdd(a, b, c) => [Some(a), Some(b), Some(c)],
         };
         arguments.into_iter().flatten()
-    }
-}
-
-/// Names a set of methods of `f64`, each called as it is spelled.
-macro_rules! methods {
-    ($(#[$doc:meta])* $set:ident { $($variant:ident $name:literal)* }) => {
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-        pub enum $set {
-            $($variant),*
-        }
-
-        impl $set {
-            /// Every one, for tests that must leave none out.
-            #[cfg(test)]
-            #[allow(dead_code, reason = "of one set alone")]
-            pub const ALL: &[Self] = &[$(Self::$variant),*];
-
-            /// The method's name.
-            pub fn name(self) -> &'static str {
-                match self {
-                    $(Self::$variant => $name),*
-                }
-            }
-
-            /// The method of that name.
-            pub fn named(name: &str) -> Option<Self> {
-                match name {
-                    $($name => Some(Self::$variant),)*
-                    _ => None,
-                }
-            }
-        }
-    };
-}
-
-methods! {
-    /// Elementary functions of one number.
-    Function {
-        Recip "recip"
-        Exp "exp"
-        Exp2 "exp2"
-        ExpM1 "exp_m1"
-        Ln "ln"
-        Log2 "log2"
-        Log10 "log10"
-        Ln1p "ln_1p"
-        Sin "sin"
-        Cos "cos"
-        Tan "tan"
-        Asin "asin"
-        Acos "acos"
-        Atan "atan"
-        Sinh "sinh"
-        Cosh "cosh"
-        Tanh "tanh"
-        Asinh "asinh"
-        Acosh "acosh"
-        Atanh "atanh"
-        Sqrt "sqrt"
-        Cbrt "cbrt"
-        Abs "abs"
-        Signum "signum"
-    }
-}
-
-methods! {
-    /// Elementary functions of two numbers.
-    PairFunction {
-        Powf "powf"
-        Atan2 "atan2"
-        Hypot "hypot"
-        Copysign "copysign"
-    }
-}
-
-methods! {
-    /// Questions about a number.
-    Predicate {
-        Nan "is_nan"
-        Finite "is_finite"
-        Infinite "is_infinite"
-        SignNegative "is_sign_negative"
-        SignPositive "is_sign_positive"
     }
 }
 

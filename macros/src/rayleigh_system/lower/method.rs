@@ -5,8 +5,9 @@ use syn::{Expr, ExprMethodCall, ExprRange, RangeLimits, Type};
 
 use super::super::diagnostics::span_of;
 use super::super::differentiate::extremum;
+use super::super::functions::is_known;
 use super::super::graph::{Comparison, Function, Operation, PairFunction, Predicate};
-use super::super::syntax::{METHODS, ROUNDING, jumps};
+use super::super::syntax::{ROUNDING, jumps};
 use super::class::IntegerType;
 use super::operator::Operands;
 use super::value::{Truth, Value};
@@ -157,12 +158,7 @@ impl Lowering<'_> {
                 _ => refuse(method, "the exponent of `powi` is not known at compile time; use `powf`"),
             };
         }
-        let known = Function::named(&name).is_some()
-            || PairFunction::named(&name).is_some()
-            || Predicate::named(&name).is_some()
-            || ["sin_cos", "min", "max", "clamp", "mul_add", "to_radians", "to_degrees", "log"]
-                .contains(&name.as_str());
-        if !known {
+        if !is_known(&name) && Predicate::named(&name).is_none() {
             return unknown();
         }
         let x = self.scalar(method, receiver)?;
@@ -173,15 +169,13 @@ impl Lowering<'_> {
         if let (Some(predicate), []) = (Predicate::named(&name), &arguments[..]) {
             return Ok(Value::Truth(Truth::Where(graph.node(Operation::Is(predicate, x)))));
         }
+        if let (Some(function), []) = (Function::named(&name), &arguments[..]) {
+            return Ok(Value::Real(graph.function(function, x)));
+        }
+        if let (Some(function), &[y]) = (PairFunction::named(&name), &arguments[..]) {
+            return Ok(Value::Real(graph.node(Operation::Pair(function, x, y))));
+        }
         let node = match (name.as_str(), &arguments[..]) {
-            (_, []) if Function::named(&name).is_some() => {
-                let Some(function) = Function::named(&name) else { return unknown() };
-                graph.function(function, x)
-            }
-            (_, &[y]) if PairFunction::named(&name).is_some() => {
-                let Some(function) = PairFunction::named(&name) else { return unknown() };
-                graph.node(Operation::Pair(function, x, y))
-            }
             ("sin_cos", []) => {
                 let (sine, cosine) = (graph.function(Function::Sin, x), graph.function(Function::Cos, x));
                 return Ok(Value::Tuple(vec![Value::Real(sine), Value::Real(cosine)]));
@@ -249,10 +243,7 @@ fn is_method_of_floats(name: &str) -> bool {
         "try_into",
         "borrow",
     ];
-    METHODS.contains(&name)
-        || ROUNDING.contains(&name)
-        || OTHERS.contains(&name)
-        || Predicate::named(name).is_some()
+    is_known(name) || ROUNDING.contains(&name) || OTHERS.contains(&name) || Predicate::named(name).is_some()
 }
 
 /// The range, without parentheses.

@@ -6,7 +6,7 @@ use proc_macro2::TokenStream;
 use quote::ToTokens;
 use syn::{BinOp, Block, Expr, Lit, Member, Pat, Stmt, UnOp};
 
-use crate::rayleigh_system::graph::{Function, interpret};
+use crate::rayleigh_system::graph::{Function, PairFunction};
 
 /// A value of the text.
 #[derive(Clone, Debug)]
@@ -235,18 +235,12 @@ fn method(name: &str, own: &Value, arguments: &[Value]) -> Value {
         "less_or_equal" => Truth(own.number() <= second()),
         "equal" => Truth(own.number() == second()),
         "powi" => Number(own.number().powi(second() as i32)),
-        "powf" => Number(own.number().powf(second())),
-        "atan2" => Number(own.number().atan2(second())),
-        "hypot" => Number(own.number().hypot(second())),
-        "copysign" => Number(own.number().copysign(second())),
         "mul_add" => Number(own.number().mul_add(second(), arguments[1].number())),
         "is_nan" => Truth(own.number().is_nan()),
-        name => {
-            let function = Function::ALL.iter().find(|function| function.name() == name);
-            Number(interpret::elementary(
-                *function.unwrap_or_else(|| panic!("{name} is not known")),
-                own.number(),
-            ))
-        }
+        name => Number(match (Function::named(name), PairFunction::named(name)) {
+            (Some(function), _) => function.method()(own.number()),
+            (_, Some(function)) => function.method()(own.number(), second()),
+            _ => panic!("{name} is not known"),
+        }),
     }
 }

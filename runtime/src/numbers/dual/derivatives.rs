@@ -8,9 +8,10 @@ use core::array;
 use nalgebra::{SMatrix, SVector};
 use num_dual::{Derivative, DualSVec};
 
+use super::Real;
 use super::primitive::Primitive;
+use super::seeds::{First, Second, block, entries, first, second, seed};
 use super::singular::{self, Alone, AloneFirst, has_nan};
-use super::{HyperDualSVec, Part, Real};
 use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
 
 /// The most variables whose derivatives one number carries all at once.
@@ -19,40 +20,6 @@ use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Gradient, Vari
 /// function is evaluated once for each pair of variables, whose numbers are small: the stack holds them,
 /// whatever n is.
 const TOGETHER: usize = 12;
-
-/// First derivatives by M seeds.
-pub(super) type First<F, const M: usize> = DualSVec<F, M>;
-
-/// First derivatives by two families of M seeds, and the mixed second ones.
-pub(super) type Second<F, const M: usize> = HyperDualSVec<F, M, M>;
-
-/// `factor` in entry `index`, zero elsewhere.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn seed<F: Primitive, const R: usize, const C: usize>(index: usize, factor: F) -> Part<F, R, C> {
-    let mut entries = SMatrix::zeros();
-    entries[index] = factor;
-    Derivative(Some(entries))
-}
-
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn first<F: Primitive, const M: usize>(value: F, index: usize, factor: F) -> Real<First<F, M>> {
-    Real(DualSVec { re: value, eps: seed(index, factor) })
-}
-
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn second<F: Primitive, const M: usize>(
-    value: F,
-    eps1: Part<F, M, 1>,
-    eps2: Part<F, 1, M>,
-) -> Real<Second<F, M>> {
-    Real(HyperDualSVec { re: value, eps1, eps2, eps1eps2: Derivative(None) })
-}
-
-/// The entries, zeros where absent.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn entries<F: Primitive, const R: usize, const C: usize>(part: Part<F, R, C>) -> SMatrix<F, R, C> {
-    part.0.unwrap_or_else(SMatrix::zeros)
-}
 
 /// Value, ∂f/∂q and ∂f/∂v of `f`.
 ///
@@ -204,16 +171,6 @@ pub fn covector_variation<F: Primitive, const N: usize>(
         along = singular::covector_variation(q, v, direction, alone);
     }
     (SVector::from_fn(|i, _| f[i].0.re), along)
-}
-
-/// The block of `matrix` that starts at (`row`, `column`).
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn block<F: Primitive, const R: usize, const C: usize, const A: usize, const B: usize>(
-    matrix: &SMatrix<F, A, B>,
-    row: usize,
-    column: usize,
-) -> SMatrix<F, R, C> {
-    SMatrix::from_fn(|i, j| matrix[(row + i, column + j)])
 }
 
 /// The derivative of the covector-valued `f` by the input u, q and v held.

@@ -7,8 +7,8 @@ use core::array;
 use nalgebra::{SMatrix, SVector};
 
 use super::Real;
-use super::derivatives::{First, Second, entries, first, second, seed};
 use super::primitive::Primitive;
+use super::seeds::{First, Second, entries, first, second, seed};
 use super::singular::{self, Alone, AloneFirst, has_nan};
 
 /// qᵢ with the derivative eᵢ.

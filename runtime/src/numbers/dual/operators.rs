@@ -9,8 +9,8 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAss
 use super::primitive::Primitive;
 use super::{Dual, Over, Real};
 
-/// x % y = x − y·trunc(x/y). Bodies are refused it by [`Remainder`](super::lift::Remainder); that it exists
-/// for all numbers lets the compiler infer the integers that it is for.
+/// x % y = x − y·trunc(x/y). Bodies are refused it by [`Remainder`](super::refused::Remainder); that it
+/// exists for all numbers lets the compiler infer the integers that it is for.
 trait Modulo<F>: Sized {
     fn modulo(self, right: Self) -> Self;
 }

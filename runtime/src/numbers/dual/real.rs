@@ -2,8 +2,8 @@
 
 use core::cmp::Ordering;
 
-use super::lift::Roundable;
 use super::primitive::Primitive;
+use super::refused::Roundable;
 use super::{Dual, Over};
 use crate::numbers::Elementary;
 

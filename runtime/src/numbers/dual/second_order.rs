@@ -5,8 +5,8 @@ use core::array;
 use nalgebra::{SMatrix, SVector};
 use num_dual::{Derivative, DualSVec, HyperDualVec};
 
-use super::derivatives::{Second, block, entries, second, seed};
 use super::primitive::Primitive;
+use super::seeds::{Second, block, entries, second, seed};
 use super::{Dual, Real};
 use crate::numbers::Hessian;
 

@@ -11,8 +11,8 @@ use core::array;
 use nalgebra::{SMatrix, SVector};
 use num_dual::Derivative;
 
-use super::derivatives::{First, Second, entries};
 use super::primitive::Primitive;
+use super::seeds::{First, Second, entries};
 use super::{HyperDualSVec, Real};
 use crate::numbers::{Direction, Gradient, Variations};
 

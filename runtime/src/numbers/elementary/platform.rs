@@ -1,9 +1,10 @@
 //! The functions of the standard library.
 
 use super::Elementary;
+use super::functions::functions;
 
 macro_rules! platform {
-    ($float:ident: $($(#[$doc:meta])* $name:ident($($argument:ident: $type:tt),*))*) => {
+    ($float:ident: $($(#[$doc:meta])* $name:ident($($argument:ident: $type:tt),*) = $double:path, $single:path;)*) => {
         impl Elementary for $float {
             $(
                 #[cfg_attr(not(debug_assertions), inline(always))]
@@ -20,5 +21,5 @@ macro_rules! platform {
     };
 }
 
-super::functions!(platform!(f64:));
-super::functions!(platform!(f32:));
+functions!(platform!(f64:));
+functions!(platform!(f32:));

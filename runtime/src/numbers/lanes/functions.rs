@@ -2,60 +2,29 @@
 //! through those of numbers.
 
 use super::Lanes;
-use crate::numbers::{Elementary, Scalar};
+use crate::numbers::{Elementary, Scalar, one_by_one};
 
 /// Functions that go lane by lane.
-macro_rules! one_by_one {
-    ($($(#[$doc:meta])* $name:ident)*) => {
+macro_rules! lane_by_lane {
+    ($($(#[$doc:meta])* $name:ident($($argument:ident: $type:tt),*) = $double:path, $single:path;)*) => {
         impl<T: Elementary, const S: usize> Lanes<T, S> {
             $(
                 $(#[$doc])*
                 #[cfg_attr(not(debug_assertions), inline(always))]
                 #[must_use]
-                pub fn $name(self) -> Self {
-                    self.map(Elementary::$name)
+                pub fn $name(self $(, $argument: $type)*) -> Self {
+                    let mut result = self;
+                    for i in 0..S {
+                        result.0[i] = Elementary::$name(self.0[i] $(, $argument.0[i])*);
+                    }
+                    result
                 }
             )*
         }
     };
 }
 
-one_by_one! {
-    /// 2ˣ.
-    exp2
-    /// eˣ − 1.
-    exp_m1
-    /// The natural logarithm.
-    ln
-    /// The logarithm to base 2.
-    log2
-    /// The logarithm to base 10.
-    log10
-    /// ln(1 + x).
-    ln_1p
-    /// The tangent.
-    tan
-    /// The inverse sine.
-    asin
-    /// The inverse cosine.
-    acos
-    /// The inverse tangent.
-    atan
-    /// The hyperbolic sine.
-    sinh
-    /// The hyperbolic cosine.
-    cosh
-    /// The hyperbolic tangent.
-    tanh
-    /// The inverse hyperbolic sine.
-    asinh
-    /// The inverse hyperbolic cosine.
-    acosh
-    /// The inverse hyperbolic tangent.
-    atanh
-    /// The cube root.
-    cbrt
-}
+one_by_one!(lane_by_lane!());
 
 impl<T: Scalar, const S: usize> Lanes<T, S> {
     /// Sine and cosine.
@@ -129,38 +98,6 @@ impl<T: Elementary, const S: usize> Lanes<T, S> {
     #[must_use]
     pub fn powi(self, n: i32) -> Self {
         self.map(|lane| Elementary::powi(lane, n))
-    }
-
-    /// x^y.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    #[must_use]
-    pub fn powf(self, exponent: Self) -> Self {
-        self.zip(exponent, Elementary::powf)
-    }
-
-    /// The angle of (x, y), y.atan2(x).
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    #[must_use]
-    pub fn atan2(self, x: Self) -> Self {
-        self.zip(x, Elementary::atan2)
-    }
-
-    /// √(x² + y²).
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    #[must_use]
-    pub fn hypot(self, other: Self) -> Self {
-        self.zip(other, Elementary::hypot)
-    }
-
-    /// x a + b, rounded once.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    #[must_use]
-    pub fn mul_add(self, a: Self, b: Self) -> Self {
-        let mut result = self;
-        for i in 0..S {
-            result.0[i] = Elementary::mul_add(self.0[i], a.0[i], b.0[i]);
-        }
-        result
     }
 }
 

@@ -2,9 +2,11 @@
 
 use nalgebra::SVector;
 
-use super::of_members::BandedOfMembers;
 use super::{Factored, NewtonMatrix, dense};
 use crate::numbers::{Scalar, Singular};
+use of_members::BandedOfMembers;
+
+mod of_members;
 
 /// A matrix whose entries lie within B of the diagonal, W = 2B + 1: Newton matrices of chains, and diagonal
 /// ones (W = 1).
@@ -26,7 +28,7 @@ pub struct Banded<S, const N: usize, const W: usize> {
 
 /// A pivot smaller than this share of its row's largest entry calls for row exchanges, which a band has no
 /// room for.
-pub(super) const SMALL: f64 = 1e-3;
+const SMALL: f64 = 1e-3;
 
 impl<S: Scalar, const N: usize, const W: usize> Banded<S, N, W> {
     /// Entries to either side of the diagonal.
@@ -46,7 +48,7 @@ impl<S: Scalar, const N: usize, const W: usize> Banded<S, N, W> {
 /// diagonal: in solving, nothing waits for a product with one.
 #[derive(Clone, Copy, Debug)]
 pub struct FactoredBand<S, const N: usize, const W: usize> {
-    pub(super) rows: [[S; W]; N],
+    rows: [[S; W]; N],
 }
 
 impl<S: Scalar, const N: usize, const W: usize> Factored<S, N> for FactoredBand<S, N, W> {

@@ -2,9 +2,11 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::of_members::DenseOfMembers;
 use super::{Factored, NewtonMatrix};
 use crate::numbers::{Scalar, Singular};
+use of_members::DenseOfMembers;
+
+mod of_members;
 
 impl<S: Scalar, const N: usize> NewtonMatrix<S, N> for SMatrix<S, N, N> {
     type Factored = FactoredDense<S, N>;
@@ -93,7 +95,7 @@ fn closed_form<S: Scalar, const N: usize>(
 }
 
 /// A pivot this much smaller than its row is looked at more closely.
-pub(super) const SUSPICIOUS: f64 = 1e-6;
+const SUSPICIOUS: f64 = 1e-6;
 
 /// Elimination with row exchanges; pivots are chosen relative to their rows.
 #[inline]
@@ -107,11 +109,11 @@ pub(super) fn eliminate<S: Scalar, const N: usize>(
 /// A matrix as the product of a lower triangle with diagonal 1 and an upper one, with its rows exchanged.
 #[derive(Clone, Copy, Debug)]
 pub struct FactoredDense<S, const N: usize> {
-    pub(super) rows: [[S; N]; N],
+    rows: [[S; N]; N],
     /// The row of the matrix that came to stand here.
-    pub(super) order: [usize; N],
+    order: [usize; N],
     /// The reciprocals of the pivots.
-    pub(super) reciprocals: [S; N],
+    reciprocals: [S; N],
 }
 
 impl<S: Scalar, const N: usize> Factored<S, N> for FactoredDense<S, N> {

@@ -3,19 +3,19 @@
 //! through those of numbers; so they are rounded alike.
 
 use super::{Members, each_member};
-use crate::numbers::{Elementary, Scalar};
+use crate::numbers::{Elementary, Scalar, one_by_one};
 
-/// Functions of one number.
-macro_rules! of_one {
-    ($($(#[$doc:meta])* $name:ident)*) => {
+/// Functions that go member by member.
+macro_rules! member_by_member {
+    ($($(#[$doc:meta])* $name:ident($($argument:ident: $type:tt),*) = $double:path, $single:path;)*) => {
         impl<T: Elementary, const W: usize> Members<T, W> {
             $(
                 $(#[$doc])*
                 #[cfg_attr(not(debug_assertions), inline(always))]
                 #[must_use]
-                pub fn $name(mut self) -> Self {
+                pub fn $name(mut self $(, $argument: $type)*) -> Self {
                     each_member!(i => {
-                        self.0[i] = Elementary::$name(self.0[i]);
+                        self.0[i] = Elementary::$name(self.0[i] $(, $argument.0[i])*);
                     });
                     self
                 }
@@ -24,72 +24,7 @@ macro_rules! of_one {
     };
 }
 
-/// Functions of two numbers.
-macro_rules! of_two {
-    ($($(#[$doc:meta])* $name:ident)*) => {
-        impl<T: Elementary, const W: usize> Members<T, W> {
-            $(
-                $(#[$doc])*
-                #[cfg_attr(not(debug_assertions), inline(always))]
-                #[must_use]
-                pub fn $name(mut self, other: Self) -> Self {
-                    each_member!(i => {
-                        self.0[i] = Elementary::$name(self.0[i], other.0[i]);
-                    });
-                    self
-                }
-            )*
-        }
-    };
-}
-
-of_one! {
-    /// √x.
-    sqrt
-    /// The cube root.
-    cbrt
-    /// 2ˣ.
-    exp2
-    /// eˣ − 1.
-    exp_m1
-    /// The natural logarithm.
-    ln
-    /// The logarithm to base 2.
-    log2
-    /// The logarithm to base 10.
-    log10
-    /// ln(1 + x).
-    ln_1p
-    /// The tangent.
-    tan
-    /// The inverse sine.
-    asin
-    /// The inverse cosine.
-    acos
-    /// The inverse tangent.
-    atan
-    /// The hyperbolic sine.
-    sinh
-    /// The hyperbolic cosine.
-    cosh
-    /// The hyperbolic tangent.
-    tanh
-    /// The inverse hyperbolic sine.
-    asinh
-    /// The inverse hyperbolic cosine.
-    acosh
-    /// The inverse hyperbolic tangent.
-    atanh
-}
-
-of_two! {
-    /// x^y.
-    powf
-    /// The angle of (x, y), y.atan2(x).
-    atan2
-    /// √(x² + y²).
-    hypot
-}
+one_by_one!(member_by_member!());
 
 impl<T: Elementary, const W: usize> Members<T, W> {
     /// Sine and cosine.
@@ -131,12 +66,12 @@ impl<T: Elementary, const W: usize> Members<T, W> {
         self
     }
 
-    /// x a + b, rounded once.
+    /// √x.
     #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
-    pub fn mul_add(mut self, a: Self, b: Self) -> Self {
+    pub fn sqrt(mut self) -> Self {
         each_member!(i => {
-            self.0[i] = Elementary::mul_add(self.0[i], a.0[i], b.0[i]);
+            self.0[i] = Elementary::sqrt(self.0[i]);
         });
         self
     }

@@ -1,6 +1,6 @@
 //! Whether what a program computed is what its plain copy does.
 
-use super::super::batch::Computed;
+use super::super::computed::Computed;
 use super::super::trial::{self, Trial};
 use super::super::verdict::all_same;
 use super::manner::Manner;

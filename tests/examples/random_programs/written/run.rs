@@ -2,10 +2,10 @@
 
 use super::super::batch::Workshop;
 use super::super::engine::features;
-use super::super::members::{self, Way};
+use super::super::members::Way;
 use super::super::run::{folder, keep, summary, workspace};
 use super::super::tally::Tally;
-use super::super::trial::Trial;
+use super::super::trial::{self, Trial};
 use super::{Written, judgement, program};
 
 /// Programs of one crate.
@@ -29,7 +29,7 @@ pub fn compiled(count: u64, seed: u64, engine: &str) -> Result<usize, String> {
                 }
                 Some(error) => judgement::told(error),
                 None if Way::named(engine).is_some() => {
-                    members::judged(program.seed, outcome.computed.get(&(index, 0)))
+                    trial::judged_in_lanes(program.seed, outcome.computed.get(&(index, 0)))
                 }
                 None => judgement::judged(program, |point| outcome.computed.get(&(index, point))),
             };

@@ -8,8 +8,9 @@ use syn::{
 use super::Rewriter;
 use super::method::may_be_of_ones_own;
 use crate::rayleigh_system::diagnostics::{Mistake, span_of};
-use crate::rayleigh_system::syntax::{METHODS, is_integer, jumps, simple_name};
+use crate::rayleigh_system::functions::is_known;
 use crate::rayleigh_system::syntax::{is_arithmetic, is_constant_name, is_self, without_parentheses};
+use crate::rayleigh_system::syntax::{is_integer, jumps, simple_name};
 
 impl Rewriter<'_> {
     /// | written | becomes |
@@ -109,7 +110,7 @@ impl Rewriter<'_> {
             }
             Expr::MethodCall(call) => {
                 let may_be_plain = jumps(&call.method)
-                    || METHODS.iter().any(|method| call.method == method)
+                    || is_known(&call.method.to_string())
                     || may_be_of_ones_own(&call.method);
                 may_be_plain
                     && self.is_constant(&call.receiver)

@@ -7,7 +7,8 @@ use quote::{format_ident, quote};
 use syn::visit::{self, Visit};
 use syn::{Expr, ExprMethodCall, Ident, ImplItemFn, Local, Pat, PatSlice, PatType};
 
-use crate::rayleigh_system::syntax::{METHODS, jumps, simple_name, without_parentheses};
+use crate::rayleigh_system::functions::is_known;
+use crate::rayleigh_system::syntax::{jumps, simple_name, without_parentheses};
 
 /// Methods of the standard library on what bodies are made of. A name that is left out costs the way below
 /// for a constant whose method hands out references, and nothing else.
@@ -252,7 +253,8 @@ const OF_INTEGERS: &[&str] = &[
 pub fn may_be_of_ones_own(name: &Ident) -> bool {
     let text = name.to_string();
     !jumps(name)
-        && !METHODS.iter().chain(OF_STD).any(|known| text == *known)
+        && !is_known(&text)
+        && !OF_STD.iter().any(|known| text == *known)
         && !OF_INTEGERS.iter().any(|start| text.starts_with(start))
 }
 
@@ -261,7 +263,7 @@ fn is_number(receiver: &Expr, numbers: &HashSet<Ident>) -> bool {
     match without_parentheses(receiver) {
         Expr::Index(_) | Expr::Binary(_) | Expr::Unary(_) | Expr::Lit(_) => true,
         Expr::Path(path) => path.path.get_ident().is_some_and(|name| numbers.contains(name)),
-        Expr::MethodCall(call) => METHODS.iter().any(|known| call.method == known),
+        Expr::MethodCall(call) => is_known(&call.method.to_string()),
         _ => false,
     }
 }
@@ -326,7 +328,8 @@ impl OwnMethods {
     /// Notes a call on what may depend on q or v: of a method of the standard library's name, on a number.
     pub fn note(&mut self, call: &ExprMethodCall, numbers: &HashSet<Ident>) {
         let name = &call.method;
-        let is_of_numbers = jumps(name) || METHODS.iter().chain(ON_NUMBERS).any(|known| name == known);
+        let is_of_numbers =
+            jumps(name) || is_known(&name.to_string()) || ON_NUMBERS.iter().any(|known| name == known);
         let is_own = may_be_of_ones_own(name) || !is_of_numbers && is_number(&call.receiver, numbers);
         if call.turbofish.is_none() && is_own {
             self.0.entry(name.clone()).or_insert(call.args.len());

@@ -6,7 +6,8 @@ use syn::{BinOp, Expr, ExprBinary, Ident, parse_quote_spanned};
 
 use super::Rewriter;
 use crate::rayleigh_system::diagnostics::span_of;
-use crate::rayleigh_system::syntax::{METHODS, is_assignment, is_self, without_parentheses};
+use crate::rayleigh_system::functions::is_known;
+use crate::rayleigh_system::syntax::{is_assignment, is_self, without_parentheses};
 
 impl Rewriter<'_> {
     /// The operator, whose operands are rewritten; it stays as it is where nothing can tell in which order
@@ -73,8 +74,8 @@ impl Rewriter<'_> {
                 !is_assignment(&binary.op) && self.is_still(&binary.left) && self.is_still(&binary.right)
             }
             Expr::MethodCall(call) => {
-                let is_known = is_self(&call.receiver) || METHODS.iter().any(|method| call.method == method);
-                is_known && self.is_still(&call.receiver) && all(call.args.iter())
+                let has_no_effect = is_self(&call.receiver) || is_known(&call.method.to_string());
+                has_no_effect && self.is_still(&call.receiver) && all(call.args.iter())
             }
             Expr::Call(call) => match &*call.func {
                 Expr::Path(path) => path.path.segments.len() > 1 && all(call.args.iter()),

@@ -5,10 +5,9 @@ use syn::{Expr, ExprPath, FnArg, Ident, Path, parse_quote, parse_quote_spanned};
 
 use super::{Rewriter, over};
 use crate::rayleigh_system::diagnostics::{Mistake, span_of};
+use crate::rayleigh_system::functions::is_known;
 use crate::rayleigh_system::model::Source;
-use crate::rayleigh_system::syntax::{
-    METHODS, has_floats, is_constant_name, is_function_of_std, is_variant, jumps,
-};
+use crate::rayleigh_system::syntax::{has_floats, is_constant_name, is_function_of_std, is_variant, jumps};
 
 impl Rewriter<'_> {
     /// A path that is called.
@@ -36,7 +35,7 @@ impl Rewriter<'_> {
                 .any(|function| function.sig.ident == last && function.sig.receiver().is_some());
             let call = if takes_self { format!("self.{last}(…)") } else { format!("Self::{last}(…)") };
             self.report.at(&path.path, Mistake::WithoutSelf { name: last, call });
-        } else if path.path.get_ident().is_some() && METHODS.contains(&&*last) {
+        } else if path.path.get_ident().is_some() && is_known(&last) {
             let scalar = self.system.scalar.to_string();
             self.report.at(&path.path, Mistake::MethodAsFunction { method: last, scalar });
         } else {
