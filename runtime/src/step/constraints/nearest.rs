@@ -14,6 +14,9 @@ use crate::system::{Constrained, Quantity, off, sizes};
 /// Corrections of a configuration or a velocity.
 const MOST: u32 = 24;
 
+/// Projections of a momentum whose velocity is linear in it.
+const PROJECTIONS: u32 = 3;
+
 /// Roundings of the terms of G·v below which its value counts as 0.
 const ROUNDINGS: f64 = 8.0;
 
@@ -190,9 +193,16 @@ where
     let at = AtPoint::<_, N, M>::of(system, &q, Inertia::of(system, &q, &rest, &at_rest.d22)?)?;
     require_on(&at.values, &at.gradients, &q)?;
     let mut v = at.inertia.solve(&(p - at_rest.d2));
-    let mu = at.complement.solve(&rates(system, &at, &q, &v));
-    let moved = p - at.gradients.transpose() * mu;
-    v -= at.answers * mu;
+    let mut moved = p;
+    // Once, unless reactions are large and cancel, as at a light body.
+    for projections in 0..PROJECTIONS {
+        let left = rates(system, &at, &q, &v);
+        if projections > 0 && is_held(&left, &at.gradients, &v) {
+            break;
+        }
+        moved -= at.gradients.transpose() * at.complement.solve(&left);
+        v = at.inertia.solve(&(moved - at_rest.d2));
+    }
     let residual = system.lagrangian_gradient(&q, &v).d2 - moved;
     if held_against(&residual, &estimated_floor(&moved, &at_rest.d22, &v)).2 {
         return Ok(State { q, p: moved });
