@@ -52,7 +52,7 @@ impl<S: Scalar, const N: usize, const M: usize> Bordered<S, N, M> {
         left - self.directions * self.multipliers(factored, left)
     }
 
-    /// F on the segment itself with κ refined once: rounded as the reactions are, however ill-conditioned S is.
+    /// F on the segment itself with κ refined once: rounded as the reactions are, whatever S is like.
     pub(super) fn refined(&self, factored: &impl Factored<S, N>, left: &SVector<S, N>) -> SVector<S, N> {
         self.residual(factored, &self.residual(factored, left))
     }

@@ -16,9 +16,9 @@ pub(super) struct Complement<S: Scalar, const M: usize> {
     refined_by: Option<(SMatrix<S, M, M>, SVector<S, M>)>,
 }
 
-/// ε beside a diagonal of 1, in units of the rounding unit to the power ⅔: far below what constraints leave of
-/// one another beside a light body, and far enough above rounding that what it makes of it along redundant ones
-/// is a millionth of λ.
+/// ε beside a diagonal of 1, in units of the rounding unit to the power ⅔: below what constraints leave of
+/// one another beside a light body, and so far above rounding that λ along redundant ones is good to a
+/// millionth.
 const SHARE: f64 = 16.0;
 
 /// Refinements at most: each takes the error by what S + ε adds down by ε/(σ + ε), with σ the least singular
@@ -57,8 +57,9 @@ impl<S: Scalar, const M: usize> Complement<S, M> {
         for _ in 0..REFINEMENTS {
             let next = x + self.factored.solve(&left);
             let next_left = right - scaled * next;
-            // No longer where rounding holds it up.
-            if !(largest(next_left.as_slice()) < largest(left.as_slice()) * S::constant(0.5)) {
+            let is_lower = largest(next_left.as_slice()) < largest(left.as_slice()) * S::constant(0.5);
+            // Rounding holds it up, or it is no number.
+            if !is_lower {
                 break;
             }
             (x, left) = (next, next_left);

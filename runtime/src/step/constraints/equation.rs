@@ -5,7 +5,7 @@ use core::cell::{Cell, RefCell};
 use nalgebra::{SMatrix, SVector};
 
 use super::bordered::Bordered;
-use super::nearest::{dependent, require_on, tangent};
+use super::nearest::{dependence, dependent, require_on, tangent};
 use crate::numbers::{Factored, NewtonMatrix};
 use crate::step::equation::{OfRule, StepEquation};
 use crate::step::{ClosedForm, Discrete, Fused, Momenta, Segment, State, Step, StepError, StepKernel};
@@ -105,8 +105,8 @@ where
         Ok(Step { state, ..step })
     }
 
-    /// The step on the segment corrected along the reactions, by what is left of the constraints alone: F stays
-    /// as it is.
+    /// The step on the segment corrected along the reactions, by what is left of the constraints alone: F
+    /// stays as it is.
     ///
     /// Beside reactions that are large and cancel, as at a light body between rods or in a triangle that is
     /// nearly flat, F does not see how far q1 is off.
@@ -138,8 +138,8 @@ where
             .try_borrow()
             .is_ok_and(|last| last.as_ref().is_some_and(|(_, last)| last.is_deficient()));
         match error {
-            StepError::OffConstraint { constraint, .. } if is_deficient => {
-                StepError::DependentConstraints { constraint }
+            StepError::OffConstraint { .. } if is_deficient => {
+                dependence::<L, N, M>(self.system, &self.state.q)
             }
             StepError::OffConstraint { value, .. } => {
                 StepError::NoRealSolution { iteration: step.report.iterations, residual: value.abs() }
