@@ -9,10 +9,12 @@ pub mod double_double;
 pub mod draws;
 #[cfg(feature = "all-claims")]
 pub mod hard;
+pub mod mechanisms;
 #[cfg(feature = "studies")]
 pub mod motions;
 #[cfg(feature = "all-claims")]
 pub mod reference;
+pub mod rounded;
 pub mod sections;
 pub mod simpson;
 pub mod systems;

@@ -43,6 +43,7 @@ pub use bordered::Bordered;
 use equation::OnConstraints;
 pub use linearized::Linearized;
 use nearest::{require_on, tangent};
+use rows::Rows;
 
 /// M constraints, [`Constrained`]: the border of a step on N = g⁻¹(0), along the constraints of velocity.
 #[derive(Clone, Copy, Debug)]
@@ -104,6 +105,10 @@ where
     }
 
     fn completed(system: &L, step: Step<L::Scalar, N>, h: L::Scalar) -> Option<Step<L::Scalar, N>> {
+        let segment = Segment { q0: step.state.q - step.velocity * h, v: step.velocity, h };
+        if Rows::on(system, &segment).is_off() {
+            return None;
+        }
         let state = system.later(h, |system| tangent::<L, N, M>(system, &step.state)).ok()?;
         state.require_reached().ok()?;
         Some(Step { state, ..step })

@@ -10,6 +10,7 @@ mod f32;
 mod gauss_solver;
 mod inputs;
 mod legendre;
+mod mechanisms;
 mod no_numbers;
 mod oscillator_flow;
 mod printed;

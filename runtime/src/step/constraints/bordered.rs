@@ -4,10 +4,10 @@ use nalgebra::{SMatrix, SVector};
 
 use super::columns::by_columns;
 use super::complement::Complement;
-use super::rows::Rows;
+use super::rows::{Rows, is_left};
 use crate::numbers::{Factored, Scalar};
 use crate::step::Segment;
-use crate::system::Constrained;
+use crate::system::{Constrained, sizes};
 
 /// G(q0)ᵀ, M constraints on a segment and the Schur complement S, with a Newton matrix W.
 ///
@@ -50,6 +50,30 @@ impl<S: Scalar, const N: usize, const M: usize> Bordered<S, N, M> {
     /// F on the segment itself.
     pub(super) fn residual(&self, factored: &impl Factored<S, N>, left: &SVector<S, N>) -> SVector<S, N> {
         left - self.directions * self.multipliers(factored, left)
+    }
+
+    /// F on the segment itself with κ refined once: rounded as the reactions are, whatever S is like.
+    pub(super) fn refined(&self, factored: &impl Factored<S, N>, left: &SVector<S, N>) -> SVector<S, N> {
+        self.residual(factored, &self.residual(factored, left))
+    }
+
+    /// Sizes of the reactions, Σₖ |Gₖᵢ(q0) κₖ|.
+    pub(super) fn reactions(&self, factored: &impl Factored<S, N>, left: &SVector<S, N>) -> SVector<S, N> {
+        sizes(&self.directions, &self.multipliers(factored, left))
+    }
+
+    /// Whether more than rounding is left of a constraint on another segment.
+    pub(super) fn is_off<L>(&self, system: &L, segment: &Segment<S, N>) -> bool
+    where
+        L: Constrained<N, M, Scalar = S>,
+    {
+        is_left(&self.rows.values(system, segment))
+    }
+
+    /// W⁻¹G(q0)ᵀS⁻¹c on the segment itself; nothing where rounding explains c.
+    pub(super) fn correction(&self, factored: &impl Factored<S, N>) -> Option<SVector<S, N>> {
+        let values = &self.rows.values;
+        self.rows.is_off().then(|| factored.solve(&(self.directions * self.complement.solve(values))))
     }
 
     /// F on another segment.

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::numbers::{Factored, NewtonMatrix, Scalar};
+use crate::numbers::{Factored, NewtonMatrix, Scalar, nonlinear::largest};
 
 /// The Schur complement S = G(q1) W⁻¹ G(q0)ᵀ of M constraints, made ready to solve with.
 ///
@@ -16,12 +16,14 @@ pub(super) struct Complement<S: Scalar, const M: usize> {
     refined_by: Option<(SMatrix<S, M, M>, SVector<S, M>)>,
 }
 
-/// ε beside a diagonal of 1, in units of the square root of the rounding unit.
+/// ε beside a diagonal of 1, in units of the rounding unit to the power ⅔: below what constraints leave of
+/// one another beside a light body, and so far above rounding that λ along redundant ones is good to a
+/// millionth.
 const SHARE: f64 = 16.0;
 
-/// Refinements: each takes the error by what S + ε adds down by ε/(σ + ε), with σ the least singular value
-/// that counts.
-const REFINEMENTS: u32 = 4;
+/// Refinements at most: each takes the error by what S + ε adds down by ε/(σ + ε), with σ the least singular
+/// value that counts.
+const REFINEMENTS: u32 = 32;
 
 impl<S: Scalar, const M: usize> Complement<S, M> {
     /// Of the matrix; nothing if an entry is not finite.
@@ -36,7 +38,7 @@ impl<S: Scalar, const M: usize> Complement<S, M> {
                 *entry = *entry * *of_row * *of_column;
             }
         }
-        let regular = scaled + SMatrix::identity() * (S::EPSILON.sqrt() * S::constant(SHARE));
+        let regular = scaled + SMatrix::identity() * (S::EPSILON.cbrt().powi(2) * S::constant(SHARE));
         let factored = NewtonMatrix::factored(&regular)?;
         Some(Self { factored, refined_by: Some((scaled, scales)) })
     }
@@ -51,8 +53,16 @@ impl<S: Scalar, const M: usize> Complement<S, M> {
         let Some((scaled, scales)) = &self.refined_by else { return self.factored.solve(right) };
         let right = right.component_mul(scales);
         let mut x = self.factored.solve(&right);
+        let mut left = right - scaled * x;
         for _ in 0..REFINEMENTS {
-            x += self.factored.solve(&(right - scaled * x));
+            let next = x + self.factored.solve(&left);
+            let next_left = right - scaled * next;
+            let is_lower = largest(next_left.as_slice()) < largest(left.as_slice()) * S::constant(0.5);
+            // Rounding holds it up, or it is no number.
+            if !is_lower {
+                break;
+            }
+            (x, left) = (next, next_left);
         }
         x.component_mul(scales)
     }

@@ -5,11 +5,14 @@ use core::cell::{Cell, RefCell};
 use nalgebra::{SMatrix, SVector};
 
 use super::bordered::Bordered;
-use super::nearest::{dependent, require_on, tangent};
+use super::nearest::{dependence, dependent, require_on, tangent};
 use crate::numbers::{Factored, NewtonMatrix};
 use crate::step::equation::{OfRule, StepEquation};
 use crate::step::{ClosedForm, Discrete, Fused, Momenta, Segment, State, Step, StepError, StepKernel};
 use crate::system::{Constrained, Lagrangian};
+
+/// Corrections by the constraints alone, of which one nearly always does.
+const MOST_CORRECTIONS: u32 = 4;
 
 /// The equation F(v̄) = 0 of a step on constraints from a state (q0, p), as p + F(v̄) = p.
 pub(super) struct OnConstraints<'a, L, R, const N: usize, const M: usize>
@@ -72,7 +75,7 @@ where
     #[inline(never)]
     fn compared(&self, segment: &Segment<L::Scalar, N>, p0: &SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
         match self.evaluated(segment).1 {
-            Some((factored, bordered)) => self.state.p + bordered.residual(&factored, &(p0 - self.state.p)),
+            Some((factored, bordered)) => self.state.p + bordered.refined(&factored, &(p0 - self.state.p)),
             None => *p0,
         }
     }
@@ -84,16 +87,45 @@ where
         Some(bordered.multipliers(&factored, &(kernel.p0 - self.state.p)))
     }
 
-    /// The step with its momentum on N: G(q1)·v(q1, p1) = 0.
+    /// The step with its end on N to rounding, and its momentum: G(q1)·v(q1, p1) = 0.
     pub(super) fn on_constraints(
         &self,
         step: Step<L::Scalar, N>,
         h: L::Scalar,
     ) -> Result<Step<L::Scalar, N>, StepError> {
+        let segment = Segment { q0: self.state.q, v: step.velocity, h };
+        let is_off = match self.last.try_borrow().as_deref() {
+            Ok(Some((_, last))) => last.is_off(self.system, &segment),
+            _ => false,
+        };
+        let step = if is_off { self.corrected(segment, step)? } else { step };
         let reached = self.system.later(h, |system| tangent::<L, N, M>(system, &step.state));
         let state = reached.map_err(|error| self.lost(error, &step))?;
         state.require_reached()?;
         Ok(Step { state, ..step })
+    }
+
+    /// The step on the segment corrected along the reactions, by what is left of the constraints alone: F
+    /// stays as it is.
+    ///
+    /// Beside reactions that are large and cancel, as at a light body between rods or in a triangle that is
+    /// nearly flat, F does not see how far q1 is off.
+    #[cold]
+    #[inline(never)]
+    fn corrected(
+        &self,
+        mut segment: Segment<L::Scalar, N>,
+        step: Step<L::Scalar, N>,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        for _ in 0..MOST_CORRECTIONS {
+            let Some((factored, bordered)) = self.evaluated(&segment).1 else { break };
+            match bordered.correction(&factored) {
+                Some(correction) => segment.v -= correction,
+                None => break,
+            }
+        }
+        let momenta = Momenta { p0: self.state.p, p1: self.free.momenta(&segment).p1 };
+        Step::completed(self.state, segment.h, segment.v, &momenta, step.report)
     }
 
     /// The error of a step whose end is off a constraint: constraints that seemed redundant contradict one
@@ -106,8 +138,8 @@ where
             .try_borrow()
             .is_ok_and(|last| last.as_ref().is_some_and(|(_, last)| last.is_deficient()));
         match error {
-            StepError::OffConstraint { constraint, .. } if is_deficient => {
-                StepError::DependentConstraints { constraint }
+            StepError::OffConstraint { .. } if is_deficient => {
+                dependence::<L, N, M>(self.system, &self.state.q)
             }
             StepError::OffConstraint { value, .. } => {
                 StepError::NoRealSolution { iteration: step.report.iterations, residual: value.abs() }
@@ -142,8 +174,10 @@ where
         let (StepKernel { p0, matrix }, solved) = self.evaluated(segment);
         let kernel = match &solved {
             Some((factored, bordered)) => {
-                let p = self.state.p;
-                StepKernel { p0: p + bordered.residual(factored, &(p0 - p)), matrix }
+                let (p, left) = (self.state.p, p0 - self.state.p);
+                let is_frozen = self.is_frozen.get();
+                let residual = if is_frozen { Bordered::residual } else { Bordered::refined };
+                StepKernel { p0: p + residual(bordered, factored, &left), matrix }
             }
             // Singular itself, or the complement is: what is solved with it says so.
             None if matrix.factored().is_none() => StepKernel { p0, matrix },
@@ -183,10 +217,15 @@ where
         self.free.inertia(q, v)
     }
 
-    /// Terms of L, R and f, and of the reactions: all that cancels where a system hangs at rest.
+    /// Terms of L, R and f, and of the reactions one by one: at rest they cancel the forces, and at a light
+    /// body between rods one another.
     fn cancelling(&self, segment: &Segment<L::Scalar, N>) -> SVector<L::Scalar, N> {
         let left = self.free.momenta(segment).p0 - self.state.p;
-        self.free.cancelling(segment) + (left + left).abs()
+        let reactions = match self.evaluated(segment).1 {
+            Some((factored, bordered)) => bordered.reactions(&factored, &left),
+            None => left.abs(),
+        };
+        self.free.cancelling(segment) + reactions + reactions
     }
 
     fn cause(&self, segment: &Segment<L::Scalar, N>) -> Option<StepError> {

@@ -14,6 +14,12 @@ use crate::system::{Constrained, Quantity, off, sizes};
 /// Corrections of a configuration or a velocity.
 const MOST: u32 = 24;
 
+/// Projections of a momentum whose velocity is linear in it.
+const PROJECTIONS: u32 = 3;
+
+/// The share of its square, in roundings, that others leave of a gradient that depends on them.
+const DEPENDENT: f64 = 64.0;
+
 /// Roundings of the terms of G·v below which its value counts as 0.
 const ROUNDINGS: f64 = 8.0;
 
@@ -190,9 +196,16 @@ where
     let at = AtPoint::<_, N, M>::of(system, &q, Inertia::of(system, &q, &rest, &at_rest.d22)?)?;
     require_on(&at.values, &at.gradients, &q)?;
     let mut v = at.inertia.solve(&(p - at_rest.d2));
-    let mu = at.complement.solve(&rates(system, &at, &q, &v));
-    let moved = p - at.gradients.transpose() * mu;
-    v -= at.answers * mu;
+    let mut moved = p;
+    // Once, unless reactions are large and cancel, as at a light body.
+    for projections in 0..PROJECTIONS {
+        let left = rates(system, &at, &q, &v);
+        if projections > 0 && is_held(&left, &at.gradients, &v) {
+            break;
+        }
+        moved -= at.gradients.transpose() * at.complement.solve(&left);
+        v = at.inertia.solve(&(moved - at_rest.d2));
+    }
     let residual = system.lagrangian_gradient(&q, &v).d2 - moved;
     if held_against(&residual, &estimated_floor(&moved, &at_rest.d22, &v)).2 {
         return Ok(State { q, p: moved });
@@ -231,12 +244,12 @@ pub(super) fn dependence<L, const N: usize, const M: usize>(
 where
     L: Constrained<N, M>,
 {
-    StepError::DependentConstraints { constraint: dependent::<L, N, M>(system, q).unwrap_or_default() }
+    let constraint = most_dependent::<L, N, M>(system, q).map_or(0, |(constraint, _)| constraint);
+    StepError::DependentConstraints { constraint }
 }
 
-/// The first constraint whose gradient depends on those before it, in the metric of the mass at rest.
+/// The constraint whose gradient depends on those before it, if rounding cannot tell one from them.
 #[cold]
-#[inline(never)]
 pub(super) fn dependent<L, const N: usize, const M: usize>(
     system: &L,
     q: &SVector<L::Scalar, N>,
@@ -244,9 +257,50 @@ pub(super) fn dependent<L, const N: usize, const M: usize>(
 where
     L: Constrained<N, M>,
 {
+    let (constraint, share) = most_dependent::<L, N, M>(system, q)?;
+    let is_regular = share > L::Scalar::EPSILON * L::Scalar::constant(DEPENDENT);
+    (!is_regular).then_some(constraint)
+}
+
+/// The constraint of whose gradient those before it leave least, in the metric of the mass at rest, and the
+/// share that they leave: the square of a sine, NaN where there is no gradient.
+#[cold]
+#[inline(never)]
+fn most_dependent<L, const N: usize, const M: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+) -> Option<(usize, L::Scalar)>
+where
+    L: Constrained<N, M>,
+{
     let inertia = Inertia::at(system, q, &nalgebra::zero()).ok()?;
-    let (_, gradients) = system.constraint_gradients(q);
-    let answers = by_columns(&gradients.transpose(), |direction| inertia.solve(direction));
-    let complement: SMatrix<L::Scalar, M, M> = gradients * answers;
-    linear::require_regular(&complement).err().map(|singular| singular.column)
+    least_left(&system.constraint_gradients(q).1.transpose(), &inertia)
+}
+
+/// The column of which those before it leave least in this metric, and the share.
+fn least_left<S: Scalar, const N: usize, const M: usize>(
+    columns: &SMatrix<S, N, M>,
+    inertia: &Inertia<S, N>,
+) -> Option<(usize, S)> {
+    let square = |x: &SVector<S, N>| linear::dot(x, &inertia.solve(x));
+    let mut found: Option<(usize, S)> = None;
+    // What each leaves, of length 1.
+    let mut left = *columns;
+    for (k, column) in columns.data.0.iter().enumerate() {
+        let column = SVector::from(*column);
+        let mut rest = column;
+        for before in left.data.0.iter().take(k) {
+            let before = SVector::from(*before);
+            rest -= before * linear::dot(&before, &inertia.solve(&rest));
+        }
+        let size = square(&rest);
+        let share = size / square(&column);
+        if found.is_none_or(|(_, least)| least > share) || !share.is_finite() {
+            found = Some((k, share));
+        }
+        if let Some(kept) = left.data.0.get_mut(k) {
+            [*kept] = if size > S::zero() { rest / size.sqrt() } else { nalgebra::zero() }.data.0;
+        }
+    }
+    found
 }

@@ -76,6 +76,11 @@ impl<S: Scalar, const N: usize, const M: usize> Rows<S, N, M> {
         rows
     }
 
+    /// Whether more than rounding is left of a constraint.
+    pub(super) fn is_off(&self) -> bool {
+        is_left(&self.values)
+    }
+
     /// c on another segment, near that of these rows.
     pub(super) fn values<L>(&self, system: &L, segment: &Segment<S, N>) -> SVector<S, M>
     where
@@ -126,6 +131,11 @@ impl<S: Scalar, const N: usize, const M: usize> Rows<S, N, M> {
         });
         with_last(by, &(rates * segment.h), L::OF_VELOCITY)
     }
+}
+
+/// Whether one of the values is more than rounding.
+pub(super) fn is_left<S: Scalar, const M: usize>(values: &SVector<S, M>) -> bool {
+    values.as_slice().iter().any(|value| *value != S::zero())
 }
 
 /// The values, 0 where rounding of terms of these sizes explains one.

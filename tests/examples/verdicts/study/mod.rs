@@ -4,7 +4,6 @@
 //! The example `verdicts` runs the study; `tests/hard/verdicts.rs` a part of it.
 
 pub mod equations;
-pub mod rounded;
 pub mod steps;
 pub mod systems;
 pub mod tableau;

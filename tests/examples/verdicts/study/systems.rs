@@ -10,7 +10,7 @@
 use dalembert::rayleigh_system;
 
 use super::equations::{Reference, Slopes, Vector};
-use super::rounded::Rounded;
+use dalembert_tests::rounded::Rounded;
 
 /// Units of action, length, velocity and time.
 #[derive(Clone, Copy, Debug, PartialEq)]

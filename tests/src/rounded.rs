@@ -3,7 +3,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use dalembert_tests::double_double::DoubleDouble;
+use crate::double_double::DoubleDouble;
 
 /// u = ε/2, the relative error of one rounding.
 const UNIT: f64 = 0.5 * f64::EPSILON;
