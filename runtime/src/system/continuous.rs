@@ -195,8 +195,8 @@ pub trait Lagrangian<const N: usize> {
         None
     }
 
-    /// The normals of the holonomic constraints at q; none where there are no constraints. Generated where the
-    /// system has constraints; checkers ask for it, no step does.
+    /// The normals of the holonomic constraints at q; none where there are no constraints. Generated where
+    /// the system has constraints; checkers ask for it, no step does.
     #[cold]
     fn normals(&self, q: &SVector<Self::Scalar, N>) -> Option<Normals<Self::Scalar, N>> {
         let _ = q;
