@@ -27,9 +27,9 @@ pub use crate::step::{Constraints, DiscreteInLanes, Free, Momenta, Segment, Step
 pub use crate::system::{
     ActingForce, Constrained, ConstrainedParameters, ConstraintsBy, CyclicCoordinate, Damping, Driven,
     Engine, Force, ForcedLagrangian, ForcedLagrangianInLanes, Function, Gathered, GeneratedDiffers,
-    GradientBy, Input, Lagrangian, NewtonStructure, NoDerivative, OfSlice, Operation, Parameters, Place,
-    Plain, PlainFields, Quantity, Rayleigh, Refusal, ScalarField, SecondOrder, SliceMethods, Stages,
-    Structure, TimeScale, VectorField, Violation, Written, first_rows, last_rows, violation,
+    GradientBy, Input, Lagrangian, NewtonStructure, NoDerivative, Normals, OfSlice, Operation, Parameters,
+    Place, Plain, PlainFields, Quantity, Rayleigh, Refusal, ScalarField, SecondOrder, SliceMethods, Stages,
+    Structure, TimeScale, VectorField, Violation, Written, first_rows, last_rows, normals, violation,
 };
 
 /// Implements [`Described`](crate::system::Described), and makes a macro of the system's name, which hands

@@ -239,8 +239,8 @@ mod attributes {
 /// ```
 ///
 /// A, B and derivatives by parameters are those of the step that [`State::nearest`] extends to states off the
-/// constraints, 2N×2N. Constraints do not go with Gauss rules, lanes, `time_scale` and
-/// `step_derivatives`, nor with the checkers of the theory.
+/// constraints, 2N×2N. Constraints do not go with Gauss rules, lanes, `time_scale` and `step_derivatives`. Of the checkers `noether`, `rayleigh_step` and `rayleigh_structure` take holonomic
+/// ones, and `dissipation` and `ledger` any.
 ///
 /// # Rules
 ///

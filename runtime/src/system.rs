@@ -19,6 +19,7 @@ mod forced;
 mod gathered;
 pub mod missing;
 mod no_derivative;
+mod normals;
 mod operation;
 mod parameters;
 mod plain;
@@ -35,7 +36,9 @@ pub use crate::numbers::{
     Lanes, Mask, Scalar, Variations,
 };
 pub use acting_force::ActingForce;
-pub use constrained::{Constrained, ConstrainedParameters, ConstraintsBy, first_rows, last_rows, violation};
+pub use constrained::{
+    Constrained, ConstrainedParameters, ConstraintsBy, first_rows, last_rows, normals, violation,
+};
 pub(crate) use constrained::{off, sizes};
 pub use continuous::{Force, Lagrangian, Rayleigh};
 pub(crate) use continuous::{derivatives_apart, is_timed};
@@ -46,6 +49,7 @@ pub use fields::{ScalarField, VectorField};
 pub use forced::{ForcedLagrangian, ForcedLagrangianInLanes, Stages};
 pub use gathered::Gathered;
 pub use no_derivative::NoDerivative;
+pub use normals::Normals;
 pub use operation::{Operation, Place, Written};
 pub use parameters::{GradientBy, Parameters};
 pub use plain::{OfSlice, Plain, PlainFields, SliceMethods};

@@ -17,6 +17,8 @@ mod objects;
 #[cfg(feature = "theory")]
 pub mod rayleigh;
 #[cfg(feature = "theory")]
+mod restriction;
+#[cfg(feature = "theory")]
 pub mod samples;
 #[cfg(feature = "theory")]
 mod verdict;

@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::Scalar;
-use crate::system::{Lagrangian, Violation};
+use crate::system::{Lagrangian, Normals, Violation};
 
 /// M constraints that hold a system: holonomic ones, gₖ(q, t) = 0, then those of velocity, ψₖ(q, v, t) = 0,
 /// linear in v.
@@ -130,6 +130,20 @@ where
         }
     }
     None
+}
+
+/// The normals of the holonomic constraints at q: [`Lagrangian::normals`] of a system with constraints.
+#[cold]
+pub fn normals<L, const N: usize, const M: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+) -> Normals<L::Scalar, N>
+where
+    L: Constrained<N, M> + ?Sized,
+{
+    let (values, gradients) = system.constraint_gradients(q);
+    let rows = gradients.row_iter().map(|row| row.transpose());
+    Normals::of(rows.zip(values.iter().copied()).take(M - L::OF_VELOCITY.min(M)))
 }
 
 /// The first constraint whose value at q rounding does not explain, with the value.

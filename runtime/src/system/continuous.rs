@@ -9,7 +9,9 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Variations, dot};
-use crate::system::{Function, GeneratedDiffers, NoDerivative, Place, Quantity, Structure, Violation};
+use crate::system::{
+    Function, GeneratedDiffers, NoDerivative, Normals, Place, Quantity, Structure, Violation,
+};
 
 /// A Lagrangian L(q, v) on TQ, Q = ℝᴺ, with its derivatives.
 #[diagnostic::on_unimplemented(
@@ -28,6 +30,9 @@ pub trait Lagrangian<const N: usize> {
     /// Whether constraints hold the motion ([`Constrained`](crate::system::Constrained)): then rules that
     /// know none do not compile for the system.
     const IS_CONSTRAINED: bool = false;
+
+    /// Whether some of them are constraints of velocity, which leave a step without a discrete Lagrangian.
+    const IS_NONHOLONOMIC: bool = false;
 
     /// L(q, v).
     fn lagrangian(&self, q: &SVector<Self::Scalar, N>, v: &SVector<Self::Scalar, N>) -> Self::Scalar;
@@ -187,6 +192,14 @@ pub trait Lagrangian<const N: usize> {
     #[cold]
     fn violation(&self, q: &SVector<Self::Scalar, N>, v: &SVector<Self::Scalar, N>) -> Option<Violation> {
         let _ = (q, v);
+        None
+    }
+
+    /// The normals of the holonomic constraints at q; none where there are no constraints. Generated where
+    /// the system has constraints; checkers ask for it, no step does.
+    #[cold]
+    fn normals(&self, q: &SVector<Self::Scalar, N>) -> Option<Normals<Self::Scalar, N>> {
+        let _ = q;
         None
     }
 

@@ -33,6 +33,9 @@ pub use of_run::EnergyEntries;
 /// Within a period any method's may keep its sign. With friction it may keep it for good and drift nowhere:
 /// the sum stays of the size h^p as the motion comes to rest.
 ///
+/// **On constraints** the work of reactions at the nodes is in the remainder, of the order of the rule, and
+/// what moves them where they are prescribed.
+///
 /// **Of a step made otherwise**, [`of`](Self::of): Simpson's rule on the cubic through both ends with their
 /// velocities. Below h⁴ over a fixed time the remainder is then the account's own.
 ///

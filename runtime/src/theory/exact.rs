@@ -57,7 +57,7 @@ mod work;
 use nalgebra::{SMatrix, SVector};
 
 use crate::step::stop::Stop;
-use crate::step::{Quantity, State, StepError};
+use crate::step::{Discretised, Quantity, State, StepError};
 use crate::system::ActingForce;
 
 pub use error::ExactError;
@@ -94,17 +94,13 @@ where
 {
     /// The objects of L with the force f_L = −∂R/∂v + f, as far as the system has R and f.
     pub fn new(system: &'a L) -> Self {
-        const {
-            assert!(!L::IS_CONSTRAINED, "exact discrete objects are those of systems without constraints");
-        }
+        const { Discretised::<L, (), N>::require_unconstrained() };
         Self { system, is_forced: true, stop: Stop::never() }
     }
 
     /// The objects of L alone, whatever else the system has.
     pub fn unforced(system: &'a L) -> Self {
-        const {
-            assert!(!L::IS_CONSTRAINED, "exact discrete objects are those of systems without constraints");
-        }
+        const { Discretised::<L, (), N>::require_unconstrained() };
         Self { system, is_forced: false, stop: Stop::never() }
     }
 

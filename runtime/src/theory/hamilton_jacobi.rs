@@ -184,6 +184,7 @@ where
     /// The Hamilton–Jacobi equations of the discrete system, and its characteristics.
     #[must_use]
     pub fn hamilton_jacobi(&self) -> HamiltonJacobi<'a, L, R, N> {
+        const { Self::require_unconstrained() };
         HamiltonJacobi { by: *self, relative: ROUNDINGS * L::Scalar::EPSILON.widen() }
     }
 }

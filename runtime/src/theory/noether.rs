@@ -15,6 +15,11 @@
 //! J is conserved iff the defect vanishes: a symmetry of L_d on which the force does no work, or the two
 //! cancelling.
 //!
+//! **On holonomic constraints** all of this is that of the pair restricted to N×N, N = g⁻¹(0), for ξ tangent
+//! to N: what momenta have along the normals does nothing on ξ, nor do reactions. Samples have to be on N,
+//! where [`on_constraints`](crate::Discretised::on_constraints) moves them, and a ξ that leaves N is an
+//! error.
+//!
 //! **Rules with interior points**, [`Gauss`](crate::Gauss): the forced equations eliminate those points, so
 //! that ξ(L_d) and f_d(ξ) mix what L and the force do; only their sum is J⁺ − J⁻. There the causes are taken
 //! at the stages,
@@ -64,7 +69,8 @@ use crate::numbers::Scalar;
 use crate::step::{Discrete, Discretised};
 use crate::system::VectorField;
 use crate::theory::{
-    samples::{Pair, Stopped, Tolerance, at_segment},
+    restriction::at_segment_on_constraints,
+    samples::{Pair, SampleError, Tolerance},
     verdict::largest,
 };
 
@@ -134,15 +140,25 @@ where
         self.by.objects(q0, q1).defect(generator).0
     }
 
-    /// The defect on the k-th segment, NaN where a product of its terms underflows.
+    /// The defect on the k-th segment, NaN where a product of its terms underflows, by the generator of this
+    /// number.
+    ///
+    /// # Errors
+    /// [`SampleError::LeavesConstraints`]; those of [`at_segment_on_constraints`].
     fn terms(
         &self,
         k: usize,
+        number: usize,
         generator: &impl VectorField<N, Scalar = L::Scalar>,
-        Pair { q0, q1 }: &Pair<L::Scalar, N>,
-    ) -> Result<Terms, Stopped> {
-        let (defect, size) = at_segment(&self.by, k, |by| by.objects(q0, q1).defect(generator))?;
-        Ok(Terms { defect: widened(&defect), size: widened(&size) })
+        segment: &Pair<L::Scalar, N>,
+    ) -> Result<Terms, SampleError> {
+        at_segment_on_constraints(&self.by, k, segment, |by, ends| {
+            if let Some(share) = ends.and_then(|ends| ends.outward(generator, segment, self.tolerance)) {
+                return Err(SampleError::LeavesConstraints { generator: number, index: k, share });
+            }
+            let (defect, size) = by.objects(&segment.q0, &segment.q1).defect(generator);
+            Ok(Terms { defect: widened(&defect), size: widened(&size) })
+        })?
     }
 }
 
@@ -166,6 +182,7 @@ where
     /// Momentum maps, and what friction does to them.
     #[must_use]
     pub fn noether(&self) -> Noether<'a, L, R, N> {
+        const { Self::require_holonomic() };
         Noether { by: *self, tolerance: Tolerance::rounding::<L::Scalar>() }
     }
 }

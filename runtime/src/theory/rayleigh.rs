@@ -18,6 +18,10 @@
 //! [`modified`] has the Rayleigh system on whose motion a run lies, [`routh`] the reduction by a cyclic
 //! coordinate.
 //!
+//! On holonomic constraints [`structure`] and `rayleigh_step` judge the pair restricted to N×N, N = g⁻¹(0),
+//! which is a pair again; [`dissipation`] judges R at the points given, on constraints those of TN. The
+//! others take no constraints.
+//!
 //! Of a system at a time t0, a view, the k-th segment is judged at t0 + k h.
 //!
 //! The first condition has three parts (the paper prints the last alone, which is enough for n = 1), and χ

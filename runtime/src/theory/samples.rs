@@ -198,13 +198,6 @@ pub(crate) fn at_segment<L: Lagrangian<N>, R, T, const N: usize>(
     k: usize,
     evaluate: impl FnOnce(&Discretised<'_, L, R, N>) -> T,
 ) -> Result<T, Stopped> {
-    const {
-        assert!(
-            !L::IS_CONSTRAINED,
-            "the checkers of the theory ask systems without constraints: on constraints a step is that of the \
-             restricted pair (L_d, R_d)"
-        );
-    }
     if by.stop.is_asked() { Err(Stopped) } else { Ok(at_time_of(by, k, evaluate)) }
 }
 

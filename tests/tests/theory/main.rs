@@ -1,6 +1,7 @@
 //! The checkers: exact objects, Noether, Rayleigh, Hamilton and Jacobi.
 
 mod conjecture;
+mod constraints;
 mod energy;
 mod exact;
 mod hamilton_jacobi;

@@ -133,13 +133,19 @@ pub fn is_held(system: &System<'_>, home: Home) -> bool {
     system.is_constrained() && (home == Home::View || system.home_of(Part::Constraints) == home)
 }
 
-/// That constraints hold the system, and `fn violation` where `home` has them as functions.
-pub fn violation(system: &System<'_>, home: Home) -> Option<TokenStream> {
+/// That constraints hold the system, with `fn violation` and `fn normals` where `home` has them as functions.
+pub fn held(system: &System<'_>, home: Home) -> Option<TokenStream> {
     if !system.is_constrained() {
         return None;
     }
     let (n, m) = (system.degrees.times(1), system.constraint_count());
-    let violation = is_held(system, home).then(|| {
+    let is_nonholonomic = system.constraints[1].is_some().then(|| {
+        quote!(
+            const IS_NONHOLONOMIC: bool = true;
+        )
+    });
+    let scalar = &system.scalar;
+    let functions = is_held(system, home).then(|| {
         quote! {
             #[cold]
             fn violation(
@@ -149,11 +155,20 @@ pub fn violation(system: &System<'_>, home: Home) -> Option<TokenStream> {
             ) -> ::core::option::Option<::dalembert::generated::Violation> {
                 ::dalembert::generated::violation::<_, #n, #m>(self, q, v)
             }
+
+            #[cold]
+            fn normals(
+                &self,
+                q: &Vector,
+            ) -> ::core::option::Option<::dalembert::generated::Normals<#scalar, #n>> {
+                ::core::option::Option::Some(::dalembert::generated::normals::<_, #n, #m>(self, q))
+            }
         }
     });
     Some(quote! {
         const IS_CONSTRAINED: bool = true;
+        #is_nonholonomic
 
-        #violation
+        #functions
     })
 }

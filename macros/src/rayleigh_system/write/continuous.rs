@@ -30,8 +30,8 @@ pub fn lagrangian(
         let is_expanded = matches!(structure.engine, Engine::Expanded);
         let missing = (!is_expanded || places.is_some()).then(|| without_derivative(system, home));
         let non_finite = non_finite_value(system, home, plain.names_fields);
-        let violation = constrained::violation(system, home);
-        quote!(#verification #missing #places #non_finite #violation)
+        let constraints = constrained::held(system, home);
+        quote!(#verification #missing #places #non_finite #constraints)
     };
     let of_view = system.has_view().then(|| asked(Home::View));
     let asked = asked(home);

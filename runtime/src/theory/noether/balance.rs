@@ -96,6 +96,8 @@ where
     /// what the solver left, the rounding of each term, and what rounding the configurations themselves does
     /// to it. Of a rule with interior points pᵢ and ∂pᵢ stand for the terms of L_d and f_d.
     ///
+    /// On constraints ξ has to be tangent to them: of another the account lacks what reactions do.
+    ///
     /// # Errors
     /// The first error among `steps`.
     pub fn balance(

@@ -8,9 +8,9 @@ use super::{Closure, Generator, Noether, RankDecision, Terms, moves_an_end};
 use crate::numbers::Scalar;
 use crate::step::Discrete;
 use crate::theory::{
+    restriction::at_segment_on_constraints,
     samples::{
-        Pair, SampleError, Sizes, Stopped, at_several_times, at_time_of, different, require_informative,
-        require_step_size,
+        Pair, SampleError, Sizes, at_several_times, different, require_informative, require_step_size,
     },
     verdict::largest,
 };
@@ -145,9 +145,8 @@ where
         let rows: Vec<Vec<Row>> = segments
             .iter()
             .enumerate()
-            .map(|(k, segment)| generators.iter().map(|xi| self.row(k, xi, segment)).collect())
-            .collect::<Result<_, Stopped>>()
-            .map_err(SampleError::from)?;
+            .map(|(k, segment)| generators.iter().enumerate().map(|xi| self.row(k, xi, segment)).collect())
+            .collect::<Result<_, SampleError>>()?;
         let points: Vec<SVector<L::Scalar, N>> =
             segments.iter().flat_map(|segment| [segment.q0, segment.q1]).collect();
         let fields = Fields::at(generators, &points);
@@ -193,16 +192,19 @@ where
     fn row(
         &self,
         k: usize,
-        xi: &Generator<L::Scalar, N>,
+        (number, xi): (usize, &Generator<L::Scalar, N>),
         segment: &Pair<L::Scalar, N>,
-    ) -> Result<Row, Stopped> {
-        let Terms { defect, size } = self.terms(k, xi, segment)?;
-        let mut contraction = Vec::new();
-        at_time_of(&self.by, k, |by| {
-            let mut component =
-                |value: L::Scalar, size: L::Scalar| contraction.push((value.widen(), size.widen()));
+    ) -> Result<Row, SampleError> {
+        let Terms { defect, size } = self.terms(k, number, xi, segment)?;
+        let contraction = at_segment_on_constraints(&self.by, k, segment, |by, ends| {
+            let mut components = Vec::new();
+            let mut component = |value: L::Scalar, size: L::Scalar| components.push((value, size));
             by.objects(&segment.q0, &segment.q1).force_contraction(xi, &mut component);
-        });
+            if let Some(ends) = ends {
+                ends.restrict_covector(&mut components);
+            }
+            components.iter().map(|(value, size)| (value.widen(), size.widen())).collect()
+        })?;
         Ok(Row {
             lagrangian: (defect.lagrangian, size.lagrangian),
             force: (defect.force, size.force),

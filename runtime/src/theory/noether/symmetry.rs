@@ -92,7 +92,7 @@ where
         require_step_size(self.by.h)?;
         require_informative(segments, |segment| segment.moves() && moves_an_end(generator, segment))?;
         let segments = &at_several_times(&self.by, segments)[..];
-        let terms = segments.iter().enumerate().map(|(k, segment)| self.terms(k, generator, segment));
+        let terms = segments.iter().enumerate().map(|(k, segment)| self.terms(k, 0, generator, segment));
         let terms: Vec<Terms> = terms.collect::<Result<_, _>>()?;
         let sizes = |scale: fn(&Terms) -> f64| scales(&terms.iter().map(scale).collect::<Vec<_>>());
         let of_lagrangian = sizes(|terms| terms.size.lagrangian);

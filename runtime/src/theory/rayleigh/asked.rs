@@ -2,9 +2,10 @@
 
 use crate::numbers::Scalar;
 use crate::step::{Discretised, Flow, PhaseMatrix, State, StepError};
+use crate::theory::restriction::{Ends, onto};
 use crate::theory::samples::{Sizes, Stopped, around, at_segment, different};
 
-/// The derivatives of a step at some states.
+/// The derivatives of a step at some states, on constraints as far as they are tangent to them.
 pub(super) struct Asked<S, const N: usize> {
     /// At the states given, then beside the first of them, where a step can be taken.
     pub(super) derivatives: Vec<PhaseMatrix<S, N>>,
@@ -56,10 +57,15 @@ pub(super) fn ask<L, M, const N: usize>(
 where
     L: Flow<M, N>,
 {
-    let at = |k: usize, state: &State<L::Scalar, N>| at_segment(by, k, |by| by.linearized_step(state));
+    let step_of = |by: &Discretised<'_, L, M, N>, state: &State<L::Scalar, N>| {
+        let (step, a) = by.linearized_step(state)?;
+        let ends = Ends::of(by, &state.q, &step.state.q)?;
+        Ok::<_, StepError>((step, ends.map_or(a, |ends| ends.restricted(&a))))
+    };
     let (mut derivatives, mut ends) = (Vec::new(), Vec::new());
     for (k, state) in states.iter().enumerate() {
-        let (step, a) = at(k, state)?.map_err(|error| Unasked::Step(k, error))?;
+        let (step, a) =
+            at_segment(by, k, |by| step_of(by, state))?.map_err(|error| Unasked::Step(k, error))?;
         derivatives.push(a);
         ends.push(step.state);
     }
@@ -67,12 +73,16 @@ where
     let sizes = Sizes::of(states.iter().chain(&ends).copied());
     let mut moves = states.iter().zip(&ends).any(|(state, end)| sizes.are_apart(state, end));
     for (k, state) in around(states, &sizes, [1.0, 1.0]).iter().enumerate() {
+        let taken = at_segment(by, states.len() + k, |by| {
+            let state = State { q: onto(by.system, &state.q)?, ..*state };
+            Ok::<_, StepError>((state, step_of(by, &state)?))
+        })?;
         // Beside the states given a system may end.
-        if let Ok((step, a)) = at(states.len() + k, state)?
+        if let Ok((state, (step, a))) = taken
             && is_finite(&a)
         {
             derivatives.push(a);
-            moves |= Sizes::of([*state, step.state]).are_apart(state, &step.state);
+            moves |= Sizes::of([state, step.state]).are_apart(&state, &step.state);
         }
     }
     Ok(Asked { derivatives, different: different(states, &sizes, 2), moves })

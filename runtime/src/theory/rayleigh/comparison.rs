@@ -92,6 +92,8 @@ where
         h: L::Scalar,
         base: impl Into<SVector<L::Scalar, N>>,
     ) -> Self {
+        const { Discretised::<L, R, N>::require_unconstrained() };
+        const { Discretised::<M, T, N>::require_unconstrained() };
         Self { ours: Discretised::new(system, h), theirs: Discretised::new(other, h), base: base.into() }
     }
 

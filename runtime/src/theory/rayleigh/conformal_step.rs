@@ -230,6 +230,7 @@ where
         &self,
         states: &[State<L::Scalar, N>],
     ) -> Result<ConformalStep, ConformalStepError> {
+        const { Self::require_unconstrained() };
         let asked = ask(self, states)?;
         let (given, needed) = (asked.different, needed::<N>());
         if given < needed {

@@ -60,6 +60,7 @@ where
     ///
     /// Where R(q, 0) = 0, a base at rest (a, a) gives the R_d of the rule itself.
     pub fn new(system: &'a L, _rule: R, h: L::Scalar, base: Pair<L::Scalar, N>) -> Self {
+        const { Discretised::<L, R, N>::require_unconstrained() };
         Self { by: Discretised::new(system, h), base }
     }
 
@@ -82,7 +83,7 @@ where
     /// # Errors
     /// [`SampleError`] if there is no segment, none that moves, or a force on a path is not finite.
     pub fn check(&self, segments: &[Pair<L::Scalar, N>]) -> Result<Recovery<N>, SampleError> {
-        let structure = self.by.rayleigh_structure(segments)?;
+        let structure = self.by.tested_structure(segments)?;
         let given = segments.len();
         let segments = &at_several_times(&self.by, segments)[..];
         let relative = Tolerance::rounding::<L::Scalar>();

@@ -159,6 +159,7 @@ where
     /// # Errors
     /// A [`ProportionError`](crate::rayleigh::ProportionError).
     pub fn proportion(&self, segments: &[Pair<S, N>]) -> Result<Proportion<N>, ProportionError> {
+        const { Self::require_unconstrained() };
         require_step_size(self.h)?;
         require_informative(segments, Pair::moves)?;
         let needed = if N == 1 { 2 } else { 1 };

@@ -26,6 +26,9 @@ use crate::theory::verdict::{Finding, Tolerance};
 /// second is: L_d⁺ and L_d⁻, and L_d, R_d = ½(L_d⁺ ± L_d⁻). Multiplied by b from the left and bᵀ from the
 /// right the first is −a bᵀ; by bᵀ and b the second is bᵀd. ∎
 ///
+/// On constraints it is asked on N = g⁻¹(0), of A between vectors tangent to N: coordinates of N add
+/// symmetric terms alone.
+///
 /// For n = 1 every step is one. For n ≥ 2 no family of methods on (q, p) of order above 2 gives Rayleigh
 /// steps for every damping: with C and K the matrices of damping and springs and M = I the exact motion has
 /// the asymmetries ∓(h⁴/12) (CK − KC) at its ends, and no error of the method cancels both.
@@ -156,6 +159,9 @@ where
     /// coordinate, towards another of the states given, or by its own size: an equilibrium does not speak
     /// for the motion. The k-th of all is asked k h after the time of a view. The answer is about these.
     ///
+    /// **On holonomic constraints** it is asked of the step restricted to N = g⁻¹(0), on vectors tangent to
+    /// N: whether the step has an L_d and an R_d there. States have to be on the constraints, as steps ask.
+    ///
     /// ```
     /// use dalembert::nalgebra::vector;
     /// use dalembert::{Composition, Discretise, Midpoint, State, rayleigh_system};
@@ -179,6 +185,7 @@ where
     /// # Errors
     /// A [`RayleighStepError`](crate::rayleigh::RayleighStepError) that says which hypothesis fails.
     pub fn rayleigh_step(&self, states: &[State<L::Scalar, N>]) -> Result<RayleighStep, RayleighStepError> {
+        const { Self::require_holonomic() };
         let asked = ask(self, states)?;
         if !states.is_empty() && !asked.moves {
             return Err(RayleighStepError::AtRest);

@@ -61,6 +61,7 @@ where
 {
     /// The re-split of `system` by `rule` with step size `h`; `base` is the point a.
     pub fn new(system: &'a L, _rule: R, h: L::Scalar, base: impl Into<SVector<L::Scalar, N>>) -> Self {
+        const { Discretised::<L, R, N>::require_unconstrained() };
         Self { by: Discretised::new(system, h), base: base.into() }
     }
 
@@ -98,7 +99,7 @@ where
     /// # Errors
     /// [`SampleError`] if there is no segment, none that moves, or a force on a path is not finite.
     pub fn check(&self, segments: &[Pair<L::Scalar, N>]) -> Result<ResplitReport<N>, SampleError> {
-        let structure = self.by.rayleigh_structure(segments)?;
+        let structure = self.by.tested_structure(segments)?;
         let segments = &at_several_times(&self.by, segments)[..];
         let relative = Tolerance::rounding::<L::Scalar>();
         let (mut plus, mut minus, mut quadrature_error) = (None, None, 0.0_f64);

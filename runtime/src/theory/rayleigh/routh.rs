@@ -112,6 +112,7 @@ where
         segments: &[Pair<L::Scalar, N>],
     ) -> Result<Routh<'a, L, R, N, K>, RouthError> {
         const { assert!(K > 0 && K + 1 == N, "K is N − 1, N at least 2") };
+        const { Self::require_unconstrained() };
         let first = segments.first().ok_or(RouthError::Uninformative)?;
         if cyclic >= N {
             return Err(RouthError::NoSuchCoordinate { cyclic });

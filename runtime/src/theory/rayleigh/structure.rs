@@ -3,9 +3,9 @@ use core::fmt;
 use crate::numbers::Scalar;
 use crate::step::{Discrete, DiscreteForceDerivatives, Discretised};
 use crate::theory::{
+    restriction::at_segment_on_constraints,
     samples::{
-        Pair, SampleError, Tolerance, at_segment, at_several_times, require_informative, require_step_size,
-        worst,
+        Pair, SampleError, Tolerance, at_several_times, require_informative, require_step_size, worst,
     },
     verdict::{Finding, largest, scales},
 };
@@ -63,8 +63,10 @@ impl<const N: usize> RayleighStructure<N> {
 /// Tests the three conditions for R_d to exist, on `segments`.
 ///
 /// They say that the matrix ∂(f_d⁻, −f_d⁺)/∂(q0, q1), which would be the matrix of second derivatives of R_d,
-/// is symmetric. Entries are compared with 1024 ε (|Hᵢⱼ| + |Hⱼᵢ| + √|Hᵢᵢ Hⱼⱼ|), at their sample or as half of
-/// the samples exceed it: a scale that follows the units of the coordinates.
+/// is symmetric; on holonomic constraints, on vectors tangent to them: whether f_d restricted to N×N is
+/// Rayleigh. Segments have to be on them then: [`on_constraints`](crate::Discretised::on_constraints).
+/// Entries are compared with 1024 ε (|Hᵢⱼ| + |Hⱼᵢ| + √|Hᵢᵢ Hⱼⱼ|), at their sample or as half of the samples
+/// exceed it: a scale that follows the units of the coordinates.
 ///
 /// **Segments it needs.** One that moves by more than rounding. Each is judged by itself, so that the
 /// answer is about the segments given: spread them over a region, away from symmetric places. Fewer than
@@ -81,7 +83,8 @@ pub fn structure<L, R, const N: usize>(
 where
     L: Discrete<R, N>,
 {
-    Discretised::<L, R, N>::new(system, h).rayleigh_structure(segments)
+    const { Discretised::<L, R, N>::require_holonomic() };
+    Discretised::<L, R, N>::new(system, h).tested_structure(segments)
 }
 
 /// Rayleigh forces.
@@ -98,16 +101,27 @@ where
         &self,
         segments: &[Pair<L::Scalar, N>],
     ) -> Result<RayleighStructure<N>, SampleError> {
+        const { Self::require_holonomic() };
+        self.tested_structure(segments)
+    }
+
+    /// [`rayleigh_structure`](Self::rayleigh_structure) of whoever says itself which constraints it takes.
+    pub(super) fn tested_structure(
+        &self,
+        segments: &[Pair<L::Scalar, N>],
+    ) -> Result<RayleighStructure<N>, SampleError> {
         require_step_size(self.h)?;
         require_informative(segments, Pair::moves)?;
         let segments = &at_several_times(self, segments)[..];
-        let hessians: Vec<_> = segments
-            .iter()
-            .enumerate()
-            .map(|(k, Pair { q0, q1 })| at_segment(self, k, |by| by.objects(q0, q1).force_derivatives()))
-            .collect::<Result<_, _>>()?;
+        let derivatives = |(k, segment): (usize, &Pair<L::Scalar, N>)| {
+            at_segment_on_constraints(self, k, segment, |by, ends| {
+                let f = by.objects(&segment.q0, &segment.q1).force_derivatives();
+                ends.map_or([f; 2], |ends| ends.restricted_force(&f))
+            })
+        };
+        let hessians: Vec<_> = segments.iter().enumerate().map(derivatives).collect::<Result<_, _>>()?;
         // An asymmetry of derivatives that are not finite may still be 0.
-        for (index, f) in hessians.iter().enumerate() {
+        for (index, [f, _]) in hessians.iter().enumerate() {
             let entries = (0..2 * N).flat_map(|a| (0..2 * N).map(move |b| entry(f, a, b)));
             if !largest(entries).is_finite() {
                 return Err(SampleError::NonFinite { index });
@@ -145,20 +159,21 @@ fn entry<S: Scalar, const N: usize>(f: &DiscreteForceDerivatives<S, N>, a: usize
     sign * block[(a % N, b % N)].widen()
 }
 
+/// Entry (a, b) against (b, a), by derivatives and the sizes of their terms.
 fn compare<S: Scalar, const N: usize>(
     segments: &[Pair<S, N>],
-    hessians: &[DiscreteForceDerivatives<S, N>],
+    hessians: &[[DiscreteForceDerivatives<S, N>; 2]],
     a: usize,
     b: usize,
 ) -> Result<Finding<Pair<f64, N>>, SampleError> {
-    let size = |f: &DiscreteForceDerivatives<S, N>| {
+    let size = |[_, f]: &[DiscreteForceDerivatives<S, N>; 2]| {
         // Roots first: a product of entries may overflow.
         let diagonal = entry(f, a, a).abs().sqrt() * entry(f, b, b).abs().sqrt();
         entry(f, a, b).abs() + entry(f, b, a).abs() + diagonal
     };
     let sizes: Vec<f64> = hessians.iter().map(size).collect();
     worst(segments, Tolerance::rounding::<S>(), &scales(&sizes), |index| {
-        entry(&hessians[index], b, a) - entry(&hessians[index], a, b)
+        entry(&hessians[index][0], b, a) - entry(&hessians[index][0], a, b)
     })
 }
 

@@ -8,7 +8,7 @@ use super::Stopped;
 pub(crate) const STOPPED: &str = "the check was ended by its caller";
 
 /// Why the samples given cannot be judged.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum SampleError {
     /// Fewer samples than decide. Where they are held against each other, those count that lie apart.
@@ -27,6 +27,25 @@ pub enum SampleError {
     Uninformative {
         /// Samples given.
         given: usize,
+    },
+    /// An end of a sample is off the constraints by more than rounding explains:
+    /// [`on_constraints`](crate::Discretised::on_constraints) moves it there.
+    OffConstraint {
+        /// Number of the sample, from 0.
+        index: usize,
+        /// The constraint k, from 0.
+        constraint: usize,
+        /// gₖ(q).
+        value: f64,
+    },
+    /// A generator leaves the constraints: its momentum map is none of the motion on them.
+    LeavesConstraints {
+        /// Number of the generator, from 0.
+        generator: usize,
+        /// Number of the sample, from 0.
+        index: usize,
+        /// The share of ξ along a normal, of its terms.
+        share: f64,
     },
     /// A view that takes the time was asked at one time, which says nothing of others.
     OneTime,
@@ -55,6 +74,16 @@ impl fmt::Display for SampleError {
                 f,
                 "none of the {given} samples can tell yes from no: they move by no more than rounding, or the generator \
                  vanishes there; give samples that move"
+            ),
+            Self::OffConstraint { index, constraint, value } => write!(
+                f,
+                "sample {index} is off constraint {constraint}, whose value there is {value:.3e}; move the samples by \
+                 `on_constraints`"
+            ),
+            Self::LeavesConstraints { generator, index, share } => write!(
+                f,
+                "generator {generator} leaves the constraints at sample {index}, by {share:.1e} of its size; give one that is \
+                 tangent to them"
             ),
             Self::OneTime => f.write_str(
                 "this view takes the time, and one time says nothing of others; ask over a duration, as by `dissipation_over`",

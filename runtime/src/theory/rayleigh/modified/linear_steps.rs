@@ -56,6 +56,7 @@ where
         &self,
         states: &[State<L::Scalar, N>],
     ) -> Result<ModifiedLinearSystem<N>, ModifiedLinearSystemError> {
+        const { Self::require_unconstrained() };
         let failed = |(sample, error)| ModifiedLinearSystemError::Step { sample, error };
         let asked = ask(self, states)?;
         let [a, others @ ..] = asked.derivatives.as_slice() else {

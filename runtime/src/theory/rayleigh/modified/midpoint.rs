@@ -96,6 +96,7 @@ where
     /// A [`ModifiedSystemError`](crate::rayleigh::modified::ModifiedSystemError) where the system is another
     /// one, or is not known to be of this kind: [`Structure`](crate::system::Structure) says what is known.
     pub fn modified_system(&self) -> Result<ModifiedSystem<'a, L, N>, ModifiedSystemError> {
+        const { Self::require_unconstrained() };
         ModifiedSystem::of(self.system(), self.step_size())
     }
 }
