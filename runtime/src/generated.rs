@@ -33,14 +33,15 @@ pub use crate::system::{
 };
 
 /// Implements [`Described`](crate::system::Described), and makes a macro of the system's name, which hands
-/// `input` and `time`, as far as the system takes them, to another macro: how many arguments a function of C
-/// has is text, which no trait can give.
+/// `input`, `time` and `constraints`, as far as the system has them, to another macro: which functions of C
+/// there are and how many arguments they have is text, which no trait can give.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! described {
     (
         $system:ident $([$view:ident $function:ident])?: $scalar:ident, $n:expr
-        $(, input $u:ident $inputs:expr)? $(, time $time:ident)? $(, parameters [$($parameter:literal),+])?;
+        $(, input $u:ident $inputs:expr)? $(, time $time:ident)? $(, constraints $constraints:expr)?
+        $(, parameters [$($parameter:literal),+])?;
         $words:ident $dollar:tt
     ) => {
         #[automatically_derived]
@@ -48,10 +49,12 @@ macro_rules! described {
             type Scalar = $scalar;
             type Input = $crate::generated::described!(@or () $(; [$scalar; $inputs])?);
             type Parameters = $crate::generated::described!(@or () $(; [&'static str; [$($parameter),+].len()])?);
+            type Multipliers = $crate::generated::described!(@or () $(; [$scalar; $constraints])?);
             type View<'a> = $crate::generated::described!(@or Self $(; $view<'a>)?);
 
             const INPUTS: usize = 0 $(+ $inputs)?;
             const TAKES_TIME: bool = [$(stringify!($time),)? ""].len() == 2;
+            const CONSTRAINTS: usize = 0 $(+ $constraints)?;
             const PARAMETERS: &'static [&'static str] = &[$($($parameter),+)?];
 
             #[inline]
@@ -65,7 +68,7 @@ macro_rules! described {
         #[allow(unused_macros)]
         macro_rules! $words {
             ($dollar then:path { $dollar($dollar before:tt)* }) => {
-                $dollar then! { $dollar($dollar before)* $(input $u)? $(time $time)? }
+                $dollar then! { $dollar($dollar before)* $(input $u)? $(time $time)? $(constraints $constraints)? }
             };
         }
         #[doc(hidden)]

@@ -1,5 +1,5 @@
 //! Prints runs of the systems of the Python package, a record a line, for `python/tests` to hold the
-//! package's against: a name, and t, q, v, p and energy as bits.
+//! package's against: a name, and t, q, v, p and energy as bits, or the reactions of a step.
 
 use dalembert::run::DrivenTrajectory;
 use dalembert::step::{Flow, MethodOf};
@@ -11,11 +11,14 @@ mod cart_pole;
 mod oscillator;
 #[path = "../../python/src/ring.rs"]
 mod ring;
+#[path = "../../python/src/spherical_pendulum.rs"]
+mod spherical_pendulum;
 
 use cart_pole::{CartPole, DrivenCartPole};
 use dalembert_face::fields as parameters;
 use oscillator::ShakenOscillator;
 use ring::Ring;
+use spherical_pendulum::SphericalPendulum;
 
 const RING: Ring = Ring { k: 1e-3 };
 
@@ -96,6 +99,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for k in 0..200 {
         run.advance(&cart.driven([(0.1 * f64::from(k)).sin()]))?;
         print("driven", &cart, run.time(), run.state())?;
+    }
+
+    let bob = SphericalPendulum { m: 1.3, l: 0.7, g: 9.81, c: 0.4 };
+    let nearest = State::nearest(&bob, [0.0, 0.3, -0.4], [0.5, 1.0, 1.0])?;
+    let start = State::from_velocity(&bob, nearest.q, nearest.velocity(&bob)?)?;
+    let mut run = DrivenTrajectory::<SphericalPendulum, Midpoint, 3>::new(0.01, start);
+    print("spherical", &bob, 0.0, &start)?;
+    for _ in 0..200 {
+        let before = *run.state();
+        let step = run.advance(&bob)?;
+        print("spherical", &bob, run.time(), run.state())?;
+        let lambda = bob.by(Midpoint, 0.01).reactions::<1>(&before, &step)?;
+        println!("spherical_reactions {:016x}", lambda[0].to_bits());
     }
     Ok(())
 }

@@ -1,5 +1,7 @@
 //! The macro that writes the functions of one system.
 
+mod constrained;
+
 /// Writes the C functions of a system, and the header that declares them.
 ///
 /// ```
@@ -39,7 +41,8 @@
 /// and the attribute describes, imported by its name where it stands in another module of the crate; the rule
 /// one of the attribute's, or `Gauss<4>`. The functions take u and t where L, R or f do, and a linearised step
 /// has derivatives by the parameters that the attribute lists. Of a system of another crate one says besides
-/// what the functions take, `takes: [u, t]`, `[u]`, `[t]` or `[]`: it is held against the system.
+/// what the functions take, `takes: [u, t]`, `[u]`, `[t]` or `[]`, and how many constraints there are, if any,
+/// `constraints: 1`: it is held against the system.
 ///
 /// It makes a module of the prefix's name with the functions, which C calls and Rust cannot do without
 /// `unsafe`, and `HEADER`, which is written by `HEADER.to_string()`.
@@ -48,20 +51,20 @@ macro_rules! c_api {
     ($prefix:ident: $system:ident, rule: $rule:ty $(,)?) => {
         $system! { $crate::c_functions { $prefix $system [$rule] } }
     };
-    ($prefix:ident: $system:ident, rule: $rule:ty, takes: [$($taken:ident),*] $(,)?) => {
-        $crate::c_api! { @taken $prefix $system [$rule] $($taken)* }
+    ($prefix:ident: $system:ident, rule: $rule:ty, takes: [$($taken:ident),*] $(, constraints: $m:expr)? $(,)?) => {
+        $crate::c_api! { @taken [$($taken)*] $prefix $system [$rule] $(constraints $m)? }
     };
-    (@taken $prefix:ident $system:ident [$rule:ty]) => {
-        $crate::c_functions! { $prefix $system [$rule] }
+    (@taken [] $prefix:ident $system:ident [$rule:ty] $($held:tt)*) => {
+        $crate::c_functions! { $prefix $system [$rule] $($held)* }
     };
-    (@taken $prefix:ident $system:ident [$rule:ty] u) => {
-        $crate::c_functions! { $prefix $system [$rule] input u }
+    (@taken [u] $prefix:ident $system:ident [$rule:ty] $($held:tt)*) => {
+        $crate::c_functions! { $prefix $system [$rule] input u $($held)* }
     };
-    (@taken $prefix:ident $system:ident [$rule:ty] t) => {
-        $crate::c_functions! { $prefix $system [$rule] time t }
+    (@taken [t] $prefix:ident $system:ident [$rule:ty] $($held:tt)*) => {
+        $crate::c_functions! { $prefix $system [$rule] time t $($held)* }
     };
-    (@taken $prefix:ident $system:ident [$rule:ty] u t) => {
-        $crate::c_functions! { $prefix $system [$rule] input u time t }
+    (@taken [u t] $prefix:ident $system:ident [$rule:ty] $($held:tt)*) => {
+        $crate::c_functions! { $prefix $system [$rule] input u time t $($held)* }
     };
 }
 
@@ -69,7 +72,7 @@ macro_rules! c_api {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! c_functions {
-    ($prefix:ident $system:ident [$rule:ty] $(input $u:ident)? $(time $t:ident)?) => {
+    ($prefix:ident $system:ident [$rule:ty] $(input $u:ident)? $(time $t:ident)? $(constraints $m:expr)?) => {
         #[doc = concat!("The C functions of [`", stringify!($system), "`], `", stringify!($prefix), "_init` and so on; [`HEADER`](", stringify!($prefix), "::HEADER) declares them.")]
         ///
         /// # Safety
@@ -79,12 +82,13 @@ macro_rules! c_functions {
         pub mod $prefix {
             use super::*;
             // Types by their paths: the user's own may have the same names.
-            use $crate::boundary::{calls, machine, read};
+            use $crate::boundary::{calls, constrained, machine, read};
             use $crate::dalembert::system::Scalar as _;
 
             const C_COORDINATES: usize = $crate::face::coordinates(core::marker::PhantomData::<fn() -> $system>);
             type CInput = <$system as $crate::face::Described<C_COORDINATES>>::Input;
             const C_INPUTS: usize = <$system as $crate::face::Described<C_COORDINATES>>::INPUTS;
+            const C_CONSTRAINTS: usize = <$system as $crate::face::Described<C_COORDINATES>>::CONSTRAINTS;
             const C_PARAMETERS: &[&str] = <$system as $crate::face::Described<C_COORDINATES>>::PARAMETERS;
 
             const _: () = assert!(
@@ -92,6 +96,10 @@ macro_rules! c_functions {
                     && <$system as $crate::face::Described<C_COORDINATES>>::TAKES_TIME
                         == $crate::c_functions!(@or false; $(!stringify!($t).is_empty())?),
                 "`takes` has u where the force takes an input, and t where L, R or f take the time",
+            );
+            const _: () = assert!(
+                C_CONSTRAINTS == $crate::c_functions!(@or 0; $($m)?),
+                "`constraints:` is the number of constraints, and stands where there are some",
             );
             type CScalar = <$system as $crate::face::Described<C_COORDINATES>>::Scalar;
             type CVector = [CScalar; C_COORDINATES];
@@ -117,6 +125,7 @@ macro_rules! c_functions {
                 coordinates: C_COORDINATES,
                 inputs: C_INPUTS,
                 takes_time: <$system as $crate::face::Described<C_COORDINATES>>::TAKES_TIME,
+                constraints: C_CONSTRAINTS,
                 parameters: C_PARAMETERS,
             };
 
@@ -283,7 +292,13 @@ macro_rules! c_functions {
             pub extern "C" fn text(status: i32) -> *const core::ffi::c_char {
                 $crate::text(status)
             }
+
+            $crate::c_functions! { @on_constraints [$($m)?] $prefix $system $(time $t)? }
         }
+    };
+    (@on_constraints [] $($system:tt)*) => {};
+    (@on_constraints [$m:expr] $($system:tt)*) => {
+        $crate::c_functions_on_constraints! { $($system)* }
     };
     // u and t of a call, 0 where it has none.
     (@given $($u:ident)?, $($t:ident)?) => {

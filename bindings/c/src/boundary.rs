@@ -13,9 +13,10 @@ use core::ptr::copy_nonoverlapping;
 
 use dalembert_face::Fields;
 
-use crate::{CReport, Status};
+use crate::{CReport, CViolation, Status};
 
 pub mod calls;
+pub mod constrained;
 pub mod machine;
 
 unsafe extern "C" {
@@ -42,7 +43,10 @@ plain!(f64 f32 i8 i16 i32 i64 u8 u16 u32 u64);
 // SAFETY: numbers alone, and as many bytes as they have.
 unsafe impl Plain for CReport {}
 
-const _: () = assert!(size_of::<CReport>() == 32);
+// SAFETY: as CReport.
+unsafe impl Plain for CViolation {}
+
+const _: () = assert!(size_of::<CReport>() == 32 && size_of::<CViolation>() == 16);
 
 // SAFETY: an array has no more than its elements.
 unsafe impl<T: Plain, const K: usize> Plain for [T; K] {}

@@ -7,6 +7,7 @@ use dalembert_face::Field;
 use crate::Status;
 
 mod class;
+mod constrained;
 
 /// The header that declares the functions of a system, as text: `HEADER.to_string()`.
 ///
@@ -35,6 +36,8 @@ pub struct Header {
     pub inputs: usize,
     /// Whether L, R or f take the time.
     pub takes_time: bool,
+    /// The number of constraints.
+    pub constraints: usize,
     /// The parameters by which the step is derived.
     pub parameters: &'static [&'static str],
 }
@@ -88,8 +91,9 @@ impl Header {
     fn shared(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "#ifndef DALEMBERT_VERSION\n#define DALEMBERT_VERSION {VERSION}\n")?;
         f.write_str("/** How a call ended: DALEMBERT_OK, or why it changed nothing. */\ntypedef enum dalembert_status {\n")?;
-        for (i, status) in Status::ALL.iter().enumerate() {
-            let comma = if i + 1 < Status::ALL.len() { "," } else { "" };
+        let mut all = Status::ALL.iter().filter(|status| !status.is_of_constraints()).peekable();
+        while let Some(status) = all.next() {
+            let comma = if all.peek().is_some() { "," } else { "" };
             writeln!(f, "    {} = {}{comma} /**< {status} */", status.name(), *status as i32)?;
         }
         f.write_str("} dalembert_status;\n\n")?;
@@ -98,7 +102,8 @@ impl Header {
             f,
             "#elif DALEMBERT_VERSION != {VERSION}\n#error \"headers of different versions of dalembert-c: write them with one\"\n\
              #endif /* DALEMBERT_VERSION */\n"
-        )
+        )?;
+        self.shared_on_constraints(f)
     }
 
     fn types(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -158,7 +163,7 @@ impl Header {
             "dalembert_status {prefix}_init_with({prefix}_memory *memory, size_t size, uint64_t layout, \
              const {prefix}_parameters *parameters,\n    {scalar} h{time}, const {scalar} q[{n}], const {scalar} v[{n}]);\n"
         )?;
-        head(f, "Begins a run at configuration q and velocity v, with step size h.")?;
+        head(f, self.start())?;
         writeln!(
             f,
             "static inline dalembert_status {prefix}_init({prefix}_memory *memory, const {prefix}_parameters *parameters,\n    \
@@ -220,7 +225,8 @@ impl Header {
         head(f, "Goes on from the present state with another step size.")?;
         writeln!(f, "dalembert_status {prefix}_set_step_size({prefix}_memory *memory, {scalar} h);\n")?;
         head(f, "What a status says: what happened and what to do.")?;
-        writeln!(f, "const char *{prefix}_text(int32_t status);\n")
+        writeln!(f, "const char *{prefix}_text(int32_t status);\n")?;
+        self.functions_on_constraints(f)
     }
 }
 

@@ -13,6 +13,14 @@
 //! | `p_set_state`, `p_set_parameters`, `p_set_step_size` | go on from there |
 //! | `p_text(status)` | what happened and what to do |
 //!
+//! A system with constraints has besides
+//!
+//! | function | what it does |
+//! |---|---|
+//! | `p_violation(parameters, t, q, v, violation)` | off which constraint (q, v) is, and how far |
+//! | `p_nearest(parameters, t, q, v, nearest_q, nearest_v)` | the nearest state on all constraints |
+//! | `p_reactions(memory, lambda)` | λ of the last step |
+//!
 //! u is there where the force takes an input, t where L, R or f take the time. The chapter *In C* of
 //! `docs/embedding.md` is a control loop from the model to the numbers, and `examples/c/` the template.
 //!
@@ -49,5 +57,5 @@ mod status;
 
 pub use boundary::CParameters;
 pub use header::Header;
-pub use report::CReport;
+pub use report::{CReport, CViolation};
 pub use status::{Status, text};

@@ -1,7 +1,9 @@
-//! How a step went, as C reads it.
+//! How a step went, and how far a state is off its constraints, as C reads it.
 
 use dalembert::step::Report;
-use dalembert::system::Scalar;
+use dalembert::system::{Scalar, Violation};
+
+use crate::Status;
 
 /// How a step went: `struct dalembert_report` of the header. See [`dalembert::step::Report`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,5 +32,29 @@ impl CReport {
             iterations: report.iterations,
             damped: report.damped,
         }
+    }
+}
+
+/// The first constraint that a state violates: `struct dalembert_violation` of the header. See
+/// [`dalembert::system::Violation`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct CViolation {
+    /// The value of the constraint, in its unit, or its rate, in that per unit of time.
+    pub amount: f64,
+    /// [`Status::OffConstraint`], [`Status::LeavesConstraint`], or [`Status::Ok`] where none is violated.
+    pub status: i32,
+    /// Which one, from 0.
+    pub constraint: u32,
+}
+
+impl From<Option<Violation>> for CViolation {
+    fn from(found: Option<Violation>) -> Self {
+        let (status, constraint, amount) = match found {
+            None => (Status::Ok, 0, 0.0),
+            Some(Violation::Off { constraint, value }) => (Status::OffConstraint, constraint, value),
+            Some(Violation::Leaving { constraint, rate }) => (Status::LeavesConstraint, constraint, rate),
+        };
+        Self { amount, status: status as i32, constraint: constraint as u32 }
     }
 }

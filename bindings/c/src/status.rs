@@ -30,6 +30,12 @@ macro_rules! statuses {
                 }
             }
 
+            /// Whether a system without constraints cannot return it.
+            #[must_use]
+            pub const fn is_of_constraints(self) -> bool {
+                self as i32 >= Self::OffConstraint as i32 && self as i32 <= Self::NoStep as i32
+            }
+
             /// The text for C: the cause and the remedy, in ASCII, ended by a zero byte.
             pub(crate) const fn text_for_c(self) -> &'static str {
                 match self {
@@ -91,6 +97,14 @@ statuses! {
     Overflow = 23, "DALEMBERT_OVERFLOW", "the step leads from a finite state to one that is NaN or infinite: look at parameters and input; if they are finite, try a smaller step";
     /// The mass matrix is singular at this configuration and regular beside it.
     SingularCoordinates = 24, "DALEMBERT_SINGULAR_COORDINATES", "the coordinates are singular at this configuration, as at a pole of spherical ones or in gimbal lock: start away from it, or take other coordinates";
+    /// The configuration is off a constraint.
+    OffConstraint = 25, "DALEMBERT_OFF_CONSTRAINT", "the configuration is off a constraint: violation says off which and by how much, nearest gives the nearest state on all constraints";
+    /// The velocity leads off a constraint.
+    LeavesConstraint = 26, "DALEMBERT_LEAVES_CONSTRAINT", "the velocity leads off a constraint: violation says off which and how fast, nearest gives the nearest state on all constraints";
+    /// The constraints contradict one another, or do not tell where to go.
+    DependentConstraints = 27, "DALEMBERT_DEPENDENT_CONSTRAINTS", "the constraints contradict one another there, or no state in reach is on all of them: a singular configuration; start away from it";
+    /// There is no step to be asked.
+    NoStep = 28, "DALEMBERT_NO_STEP", "no step was taken since the run began or its parameters were set: take one, and ask for its reactions then";
 }
 
 impl From<StepError> for Status {
@@ -123,6 +137,9 @@ impl From<&StepError> for Status {
             },
             StepError::DegenerateLagrangian { .. } => Self::DegenerateLagrangian,
             StepError::MassNotPositiveDefinite { .. } => Self::MassNotPositiveDefinite,
+            StepError::OffConstraint { .. } => Self::OffConstraint,
+            StepError::LeavesConstraint { .. } => Self::LeavesConstraint,
+            StepError::DependentConstraints { .. } => Self::DependentConstraints,
             StepError::NoVelocity { .. } => Self::NoVelocity,
             StepError::SingularNewtonMatrix { .. } => Self::SingularNewtonMatrix,
             StepError::NoRealSolution { .. } => Self::NoRealSolution,

@@ -5,6 +5,7 @@
 #![allow(unsafe_code, clippy::undocumented_unsafe_blocks)]
 
 mod boundary {
+    mod constrained;
     mod failed_steps;
     mod random_calls;
     mod wrong_calls;

@@ -7,6 +7,7 @@
 mod systems;
 mod compilers {
     mod chapter;
+    mod constrained;
     mod programs;
     mod standards;
 }
@@ -33,10 +34,12 @@ fn those_that(tools: &[&'static str], what: &str, does: impl Fn(&str) -> bool) -
 
 /// A folder of this test's own with all headers.
 fn folder(name: &str) -> PathBuf {
+    use systems::constrained::{rods, skate, spherical};
     use systems::{cart_pole, ring, swing, winch};
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::create_dir_all(&folder).expect("a folder beside the build");
-    for header in [cart_pole::HEADER, ring::HEADER, swing::HEADER, winch::HEADER] {
+    let of_free = [cart_pole::HEADER, ring::HEADER, swing::HEADER, winch::HEADER];
+    for header in of_free.into_iter().chain([spherical::HEADER, rods::HEADER, skate::HEADER]) {
         fs::write(folder.join(header.prefix).with_extension("h"), header.to_string()).expect("a header");
     }
     folder

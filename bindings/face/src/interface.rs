@@ -9,6 +9,7 @@ use dalembert::system::{Described, Scalar};
 use dalembert::{State, StepError};
 
 use crate::columns::{ByInput, ByParameters, Column};
+use crate::constraints::{Holding, Multipliers, Reacting, StepMade};
 use crate::{FieldType, Fields};
 
 /// The type of u: numbers, or `()` where a system takes none.
@@ -54,6 +55,8 @@ pub trait Interface<const N: usize>: Sized + 'static {
     type Scalar: Scalar + FieldType;
     /// The type of u.
     type Input: Input<Self::Scalar>;
+    /// The type of λ.
+    type Multipliers: Multipliers;
     /// The memory that a run keeps from step to step.
     type RunMemory: for<'a> Memory<Self::View<'a>, Self::Rule, N> + Clone + 'static;
     /// Views as a run names them.
@@ -63,6 +66,24 @@ pub trait Interface<const N: usize>: Sized + 'static {
 
     /// The system with u at time t, as far as it takes them.
     fn view(system: &Self::System, u: Self::Input, t: Self::Scalar) -> Self::View<'_>;
+
+    /// The state on all constraints that is nearest to (q, v): [`Holding::nearest`].
+    ///
+    /// # Errors
+    /// A [`StepError`].
+    fn nearest(
+        system: &Self::View<'_>,
+        motion: [[Self::Scalar; N]; 2],
+    ) -> Result<State<Self::Scalar, N>, StepError>;
+
+    /// λ of a step: [`Reacting::reactions`].
+    ///
+    /// # Errors
+    /// A [`StepError`].
+    fn reactions(
+        system: &Self::View<'_>,
+        made: &StepMade<Self::Scalar, N>,
+    ) -> Result<impl AsRef<[Self::Scalar]>, StepError>;
 
     /// The derivatives of a step by each entry of u.
     ///
@@ -91,6 +112,7 @@ where
     S::Scalar: FieldType,
     S::Input: Input<S::Scalar> + for<'a> ByInput<S::View<'a>, R, N>,
     S::Parameters: for<'a> ByParameters<S::View<'a>, R, N>,
+    S::Multipliers: for<'a> Reacting<S::View<'a>, R, N>,
     for<'a> S::View<'a>: Linearizable<R, N> + Flow<R, N, RunMemory = K>,
     K: for<'a> Memory<S::View<'a>, R, N> + Clone + 'static,
     R: 'static,
@@ -99,12 +121,24 @@ where
     type Rule = R;
     type Scalar = S::Scalar;
     type Input = S::Input;
+    type Multipliers = S::Multipliers;
     type RunMemory = K;
     type Kind = S::View<'static>;
     type View<'a> = S::View<'a>;
 
     fn view(system: &S, u: S::Input, t: S::Scalar) -> S::View<'_> {
         system.view(*system, u, t)
+    }
+
+    fn nearest(system: &S::View<'_>, [q, v]: [[S::Scalar; N]; 2]) -> Result<State<S::Scalar, N>, StepError> {
+        S::Multipliers::nearest(system, q.into(), v.into())
+    }
+
+    fn reactions(
+        system: &S::View<'_>,
+        made: &StepMade<S::Scalar, N>,
+    ) -> Result<impl AsRef<[S::Scalar]>, StepError> {
+        S::Multipliers::reactions(system, made)
     }
 
     fn by_input(

@@ -10,12 +10,14 @@ pub use dalembert;
 pub use dalembert::system::Described;
 
 mod columns;
+mod constraints;
 mod fields;
 mod interface;
 mod layout;
 mod number;
 
 pub use columns::{ByInput, ByParameters, Column, by_state};
+pub use constraints::{Holding, Multipliers, Reacting, StepMade};
 pub use fields::{Field, FieldType, Fields};
 pub use interface::{By, Input, Interface, coordinates, start};
 pub use layout::layout;

@@ -1,14 +1,16 @@
 //! One instance: its variables, its run, and what is allowed when.
 
 mod derivatives;
+mod reactions;
 mod saved;
 
 use std::rc::Rc;
 
 use dalembert::run::DrivenTrajectory;
+use dalembert::step::require_step_size;
 use dalembert::system::Scalar;
 use dalembert::{Lagrangian, State, nalgebra::SVector};
-use dalembert_face::{Described, Fields, Input, Interface, Number, start};
+use dalembert_face::{Described, Fields, Input, Interface, Number};
 
 use crate::Unit;
 use crate::model::Model;
@@ -31,12 +33,14 @@ pub struct CoSimulation<I: Interface<N>, const N: usize> {
     step_size: I::Scalar,
     system: I::System,
     input: Vec<I::Scalar>,
-    /// (q, v) that the run begins at.
+    /// (q, v) that the run begins at, on constraints at the nearest that is on them.
     start: [[I::Scalar; N]; 2],
     /// From the end of initialization on.
     run: Option<Run<I, N>>,
     /// The last communication step, while neither state nor parameters were set since.
     last: Option<Communication<I, N>>,
+    /// λ of the last step; nothing before the first.
+    reactions: Vec<I::Scalar>,
 }
 
 /// (q, p) and v.
@@ -74,6 +78,7 @@ impl<I: Interface<N>, const N: usize> Clone for CoSimulation<I, N> {
             start: self.start,
             run: self.run.clone(),
             last: self.last.clone(),
+            reactions: self.reactions.clone(),
         }
     }
 }
@@ -95,6 +100,7 @@ impl<I: Interface<N>, const N: usize> CoSimulation<I, N> {
             start: unit.start,
             run: None,
             last: None,
+            reactions: Vec::new(),
         }
     }
 
@@ -123,12 +129,18 @@ impl<I: Interface<N>, const N: usize> CoSimulation<I, N> {
         let system = self.undriven();
         let motion = match &self.run {
             Some(run) => run.state().velocity(&system).map(|v| (*run.state(), v)),
-            None => {
-                let [q, v] = self.start.map(SVector::from);
-                State::from_velocity(&system, q, v).map(|state| (state, v))
-            }
+            None => I::nearest(&system, self.start).and_then(|state| match I::System::CONSTRAINTS {
+                0 => Ok((state, self.start[1].into())),
+                _ => state.velocity(&system).map(|v| (state, v)),
+            }),
         };
         motion.map_err(|error| Refusal::Step { error, time: self.time() })
+    }
+
+    /// Whether q and v are as they were set, as long as nothing follows from them.
+    fn is_as_set(&self) -> bool {
+        let is_solved_for = I::System::CONSTRAINTS > 0 && self.mode == Mode::Initialization;
+        self.run.is_none() && !is_solved_for
     }
 
     fn require(&self, mode: Mode) -> Result<(), Refusal> {
@@ -145,7 +157,7 @@ impl<I: Interface<N>, const N: usize> CoSimulation<I, N> {
         let before_the_run = matches!(self.mode, Mode::Instantiated | Mode::Initialization);
         let settable = match variable.role {
             Role::Independent | Role::Calculated => false,
-            Role::Fixed | Role::Exact => before_the_run,
+            Role::Fixed | Role::Exact | Role::Approximate => before_the_run,
             Role::Tunable | Role::Input => self.mode != Mode::Terminated,
         };
         if !settable {
@@ -177,7 +189,7 @@ impl<I: Interface<N>, const N: usize> CoSimulation<I, N> {
             Place::Input(i) => self.input[i] = scalar,
             Place::Configuration(i) => self.start[0][i] = scalar,
             Place::Velocity(i) => self.start[1][i] = scalar,
-            Place::Time | Place::Momentum(_) | Place::Energy => {}
+            Place::Time | Place::Momentum(_) | Place::Energy | Place::Multiplier(_) => {}
         }
         Ok(())
     }
@@ -193,7 +205,7 @@ impl<I: Interface<N>, const N: usize> Model for CoSimulation<I, N> {
     }
 
     fn values(&self, references: &[u32]) -> Result<Vec<Number>, Refusal> {
-        let mut motion = None;
+        let (mut motion, mut multipliers) = (None, None);
         let mut values = Vec::with_capacity(references.len());
         for &reference in references {
             let variable = self.variable(reference)?;
@@ -204,9 +216,14 @@ impl<I: Interface<N>, const N: usize> Model for CoSimulation<I, N> {
                     self.system.entry(field, index).expect("variables are listed from the fields")
                 }
                 Place::Input(i) => number(self.input[i]),
-                // As they were set, while nothing follows from them.
-                Place::Configuration(i) if self.run.is_none() => number(self.start[0][i]),
-                Place::Velocity(i) if self.run.is_none() => number(self.start[1][i]),
+                Place::Configuration(i) if self.is_as_set() => number(self.start[0][i]),
+                Place::Velocity(i) if self.is_as_set() => number(self.start[1][i]),
+                Place::Multiplier(i) => {
+                    if multipliers.is_none() {
+                        multipliers = Some(self.multipliers()?);
+                    }
+                    number(multipliers.as_deref().unwrap_or_default()[i])
+                }
                 of_motion => {
                     let (state, v) = match motion {
                         Some(motion) => motion,
@@ -247,8 +264,8 @@ impl<I: Interface<N>, const N: usize> Model for CoSimulation<I, N> {
 
     fn exit_initialization(&mut self) -> Result<(), Refusal> {
         self.require(Mode::Initialization)?;
-        let run = start::<I, N>(&self.system, self.without_input(), self.step_size, self.start);
-        self.run = Some(run.map_err(|error| Refusal::Step { error, time: self.start_time })?);
+        require_step_size(self.step_size).map_err(|error| Refusal::Step { error, time: self.start_time })?;
+        self.run = Some(Run::<I, N>::new(self.step_size, self.motion()?.0));
         self.mode = Mode::Step;
         Ok(())
     }
@@ -265,12 +282,12 @@ impl<I: Interface<N>, const N: usize> Model for CoSimulation<I, N> {
             return Err(Refusal::NotAMultiple { size, step_size: h });
         }
         let mut run = self.run.clone().ok_or(Refusal::NotNow(self.mode))?;
+        let mut made = None;
         for _ in 0..steps as u64 {
-            let time = self.start_time + run.time();
-            let (input, now) = Self::given(&self.input, time);
-            let view = I::view(&self.system, input, now);
-            run.advance(&view).map_err(|error| Refusal::Step { error, time })?;
+            made = Some(self.advance(&mut run)?);
         }
+        let reactions = made.map(|(time, made)| self.reactions_of(time, &made)).transpose()?;
+        self.reactions = reactions.unwrap_or_default();
         let (system, input) = (self.system, self.input.clone());
         let before = self.run.replace(run);
         self.last = before.map(|before| Communication { before, system, input, steps: steps as u64 });

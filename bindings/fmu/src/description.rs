@@ -128,6 +128,7 @@ fn roles(role: Role) -> (&'static str, &'static str, Option<&'static str>) {
         Role::Tunable => ("parameter", "tunable", Some("exact")),
         Role::Input => ("input", "continuous", None),
         Role::Exact => ("output", "continuous", Some("exact")),
+        Role::Approximate => ("output", "continuous", Some("approx")),
         Role::Calculated => ("output", "continuous", Some("calculated")),
     }
 }
@@ -160,21 +161,22 @@ fn valued<'a>(of: &Variable, element: Element<'a>) -> Element<'a> {
 }
 
 fn structure(variables: &[Variable], to: &mut To) -> io::Result<()> {
-    unknowns(variables, None, |reference| unknown(to, "Output", ("valueReference", reference)))?;
-    unknowns(variables, Some(Role::Calculated), |reference| {
+    unknowns(variables, Variable::is_output, |reference| {
+        unknown(to, "Output", ("valueReference", reference))
+    })?;
+    unknowns(variables, Variable::is_initial_unknown, |reference| {
         unknown(to, "InitialUnknown", ("valueReference", reference))
     })
 }
 
-/// The value references of outputs: of one role, or of all.
+/// The value references of variables.
 fn unknowns(
     variables: &[Variable],
-    which: Option<Role>,
+    which: fn(&Variable) -> bool,
     write: impl FnMut(usize) -> io::Result<()>,
 ) -> io::Result<()> {
-    let is_unknown = |of: &Variable| of.is_output() && which.is_none_or(|role| of.role == role);
     let all = variables.iter().enumerate();
-    all.filter(|(_, of)| is_unknown(of)).map(|(reference, _)| reference).try_for_each(write)
+    all.filter(|(_, of)| which(of)).map(|(reference, _)| reference).try_for_each(write)
 }
 
 fn unknown(to: &mut To, name: &str, (attribute, number): (&str, usize)) -> io::Result<()> {

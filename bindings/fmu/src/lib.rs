@@ -13,8 +13,12 @@
 //! | `u[0]` … | the inputs, each held over a communication step |
 //! | `q[0]` …, `v[0]` … | configuration and velocity: outputs, with the start values of the run |
 //! | `p[0]` …, `energy` | momenta and energy: outputs |
+//! | `lambda[0]` … | of a system with constraints: reactions over the last step, outputs |
 //!
 //! A parameter that changes between steps leaves (q, p), so that momenta are continuous.
+//!
+//! On constraints the start values of `q` and `v` are guesses, `initial="approx"`: initialization solves for
+//! the nearest state on all constraints, and fails, with the constraint in the log, where none is in reach.
 //!
 //! The state of a unit can be read and set, and goes on bit by bit as it would have. Written as bytes it is
 //! (q, p), the clock, inputs and parameters, without what the solver remembers of earlier steps: read back,
@@ -22,7 +26,8 @@
 //!
 //! Directional derivatives after a communication step are those of its end: by `u` held over it, by `q` and
 //! `p` at its beginning and by the parameters that `#[rayleigh_system(parameters = […])]` lists, of `q`, `p`,
-//! `v` and `energy`. In initialization mode they are those of `p` and `energy` by `q` and `v`.
+//! `v` and `energy`. In initialization mode they are those of `p` and `energy` by `q` and `v`, unless
+//! constraints hold these.
 //!
 //! A call that fails changes nothing and says why to the importer's log. A communication step that is no
 //! multiple of h is `fmi3Discard`; a step that cannot be solved is `fmi3Error` with the text of its

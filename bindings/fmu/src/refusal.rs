@@ -95,7 +95,7 @@ impl fmt::Display for Refusal {
                 f,
                 "no derivative of {unknown} by {known}: in step mode there are those of q, p, v, energy by u, by q and p at \
                  the beginning of the communication step, and of q and p by the parameters that the model lists; in \
-                 initialization mode those of p and energy by q and v"
+                 initialization mode those of p and energy by q and v, unless constraints hold these"
             ),
             Self::NoStep => write!(f, "no derivatives yet: they are those of the last communication step"),
             Self::Bytes => write!(f, "these bytes are no state of this unit"),

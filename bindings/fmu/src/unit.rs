@@ -1,6 +1,6 @@
 //! A unit, as `fmu!` states it.
 
-use dalembert_face::{Field, Fields, Interface, layout};
+use dalembert_face::{Described, Field, Fields, Interface, layout};
 
 /// A system with its step size and start, as a unit.
 ///
@@ -16,8 +16,8 @@ pub struct Unit<I: Interface<N>, const N: usize> {
     pub(crate) start: [[I::Scalar; N]; 2],
 }
 
-/// The names that are not left for fields.
-const TAKEN: [&str; 7] = ["time", "step_size", "u", "q", "v", "p", "energy"];
+/// The names that are not left for fields; the last one where there are constraints.
+const TAKEN: [&str; 8] = ["time", "step_size", "u", "q", "v", "p", "energy", "lambda"];
 
 impl<I: Interface<N>, const N: usize> Unit<I, N> {
     /// The unit of a system in the library of this name. It does not compile where a field has the name of
@@ -31,13 +31,15 @@ impl<I: Interface<N>, const N: usize> Unit<I, N> {
         start: [[I::Scalar; N]; 2],
     ) -> Self {
         let fields: &[Field] = I::System::FIELDS;
+        let taken = if I::System::CONSTRAINTS > 0 { TAKEN.len() } else { TAKEN.len() - 1 };
         let mut i = 0;
         while i < fields.len() {
             let mut j = 0;
-            while j < TAKEN.len() {
+            while j < taken {
                 assert!(
                     !equal(fields[i].name, TAKEN[j]),
-                    "a field has the name of another variable of the unit: time, step_size, u, q, v, p, energy"
+                    "a field has the name of another variable of the unit: time, step_size, u, q, v, p, energy, or \
+                     lambda where there are constraints"
                 );
                 j += 1;
             }

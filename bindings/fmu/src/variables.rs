@@ -20,6 +20,8 @@ pub enum Place {
     Velocity(usize),
     Momentum(usize),
     Energy,
+    /// λ of a constraint.
+    Multiplier(usize),
 }
 
 /// The role of a variable: whether the importer may set it, and when.
@@ -33,6 +35,8 @@ pub enum Role {
     Input,
     /// An output with a start value, set until initialization is left.
     Exact,
+    /// An output with a guess for its start, set until initialization is left: constraints hold it.
+    Approximate,
     /// An output that follows from others.
     Calculated,
 }
@@ -55,7 +59,12 @@ impl Variable {
     }
 
     pub const fn is_output(&self) -> bool {
-        matches!(self.role, Role::Exact | Role::Calculated)
+        matches!(self.role, Role::Exact | Role::Approximate | Role::Calculated)
+    }
+
+    /// Whether its value follows from others at the start.
+    pub const fn is_initial_unknown(&self) -> bool {
+        matches!(self.role, Role::Approximate | Role::Calculated)
     }
 }
 
@@ -97,18 +106,26 @@ pub fn of<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> Vec<Variable> {
         all.push(Variable::new(format!("u[{i}]"), held, Place::Input(i), Role::Input, zero));
     }
     let [q, v] = unit.start;
+    let role = if I::System::CONSTRAINTS > 0 { Role::Approximate } else { Role::Exact };
     for (i, &start) in q.iter().enumerate() {
         let (place, start) = (Place::Configuration(i), number(start));
-        all.push(Variable::new(format!("q[{i}]"), "Configuration", place, Role::Exact, start));
+        all.push(Variable::new(format!("q[{i}]"), "Configuration", place, role, start));
     }
     for (i, &start) in v.iter().enumerate() {
         let (place, start) = (Place::Velocity(i), number(start));
-        all.push(Variable::new(format!("v[{i}]"), "Velocity", place, Role::Exact, start));
+        all.push(Variable::new(format!("v[{i}]"), "Velocity", place, role, start));
     }
     for i in 0..N {
         all.push(Variable::new(format!("p[{i}]"), "Momentum", Place::Momentum(i), Role::Calculated, zero));
     }
     all.push(Variable::new("energy", "Energy", Place::Energy, Role::Calculated, zero));
+    for i in 0..I::System::CONSTRAINTS {
+        let (name, place) = (format!("lambda[{i}]"), Place::Multiplier(i));
+        let of = format!(
+            "Reaction of constraint {i} over the last step: its force on q[k] is this times the derivative by q[k]"
+        );
+        all.push(Variable::new(name, &of, place, Role::Calculated, zero));
+    }
     all
 }
 

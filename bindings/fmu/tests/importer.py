@@ -1,6 +1,8 @@
 """Holds the template's unit against what an importer of others makes of it: FMPy reads, validates and simulates it.
 
-    importer.py cart_pole.fmu cart_pole_fmi2.fmu reference.txt
+    importer.py cart_pole.fmu cart_pole_fmi2.fmu reference.txt libconstrained.so descriptions/
+
+The last two are of a unit on constraints, which is packed here.
 
 Every check has a control: the same check of something that is wrong, which has to fail.
 """
@@ -20,7 +22,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 from fmpy.validation import validate_fmu
 
-unit, unit_of_two, reference = map(Path, sys.argv[1:4])
+unit, unit_of_two, reference, library_on_constraints, descriptions = map(Path, sys.argv[1:6])
 passed = 0
 
 
@@ -423,6 +425,66 @@ exchange |= {"SetContinuousStates", "GetDerivatives", "GetEventIndicators", "Get
 expected -= {"fmi2" + name for name in exchange}
 check(len(expected) == 34, f"FMI 2.0's functions for co-simulation: {len(expected)}")
 check([name for name in sorted(expected) if not hasattr(library, name)] == [], "FMI 2.0: all of them are there")
+
+# --- constraints: start values are guesses, reactions are outputs --------------------------------------------------------
+
+places = ["q[0]", "q[1]", "q[2]", "v[0]", "v[1]", "v[2]"]
+M, LENGTH, GRAVITY = 1.3, 0.7, 9.81
+guess = {"q[0]": 0.0, "q[1]": 0.3, "q[2]": -0.4, "v[0]": 0.5, "v[1]": 1.0, "v[2]": 1.0}
+
+
+def packed(version, like):
+    """The unit on constraints, its library where that of another unit is."""
+    file = Path(descriptions, f"constrained{version}.fmu")
+    with zipfile.ZipFile(like) as other, zipfile.ZipFile(file, "w") as new:
+        library = next(name for name in other.namelist() if name.startswith("binaries/"))
+        new.write(Path(descriptions, f"{version}.xml"), "modelDescription.xml")
+        new.write(library_on_constraints, library.replace("cart_pole", "spherical"))
+    check(validate_fmu(str(file)) == [], f"validates: {validate_fmu(str(file))}")
+    return file
+
+
+def tension(rows, u, with_motion=1.0):
+    """Of the motion: m q'' along the rod is -m v^2 / l."""
+    q, v = np.column_stack([rows[name] for name in places[:3]]), np.column_stack([rows[name] for name in places[3:]])
+    return -with_motion * M * (v**2).sum(axis=1) / LENGTH + (M * GRAVITY * q[:, 2] - u * q[:, 0]) / LENGTH
+
+
+for version, like in [(3, unit), (2, unit_of_two)]:
+    held = packed(version, like)
+    asked = {"output": [*places, "energy", "lambda[0]"], "output_interval": 0.001, "stop_time": 1.0}
+    result = fmpy.simulate_fmu(str(held), start_values={**guess, "step_size": 0.001, "u[0]": 0.8}, **asked)
+    q = np.column_stack([result[name] for name in places[:3]])
+    holds(lambda: close([result[name][0] for name in places], [0.0, 0.42, -0.56, 0.5, 1.12, 0.84], 1e-15), "the nearest state begins")
+    holds(lambda: close(np.linalg.norm(q, axis=1), LENGTH, 1e-15), "it stays on the sphere")
+    # A reaction over a step is that at its beginning, to first order.
+    found, expected = result["lambda[0]"][1:], tension(result, 0.8)[:-1]
+    off = abs(found - expected).max()
+    check(off < 0.02, f"reactions are those of the motion: {off}")
+    check(abs(found - tension(result, 0.8, with_motion=0.99)[:-1]).max() > 0.02, "control: a hundredth of the motion is seen")
+    check(abs(found - tension(result, 0.7)[:-1]).max() > 0.02, "control: the input is seen")
+    check(result["lambda[0]"][0] == result["lambda[0]"][1], "at the start it is that of the first step")
+
+description_on_constraints = fmpy.read_model_description(descriptions / "constrained3.fmu")
+vr_on_constraints = {variable.name: variable.valueReference for variable in description_on_constraints.modelVariables}
+folder_on_constraints = fmpy.extract(str(descriptions / "constrained3.fmu"))
+lost = FMU3Slave(
+    guid=description_on_constraints.instantiationToken,
+    unzipDirectory=folder_on_constraints,
+    modelIdentifier="spherical",
+    instanceName="lost",
+)
+lost.instantiate(loggingOn=True, logMessage=log)
+lost.setFloat64([vr_on_constraints[name] for name in places], [0.0] * 6)
+lost.enterInitializationMode(startTime=0.0)
+refused(lambda: lost.exitInitializationMode(), fmi3Error, "at time 0", "derivative")
+lost.setFloat64([vr_on_constraints["q[2]"]], [-1.0])
+lost.exitInitializationMode()
+lost.doStep(0.0, 0.01)
+holds(lambda: close(lost.getFloat64([vr_on_constraints["lambda[0]"]]), [-M * GRAVITY], 1e-12), "the rod carries the weight")
+lost.setFloat64([vr_on_constraints["l"]], [0.8])
+refused(lambda: lost.doStep(0.01, 0.01), fmi3Error, "constraint 0", "1.000e-1")
+shutil.rmtree(folder_on_constraints, ignore_errors=True)
 
 # --- speed is no claim, but a unit that leaks or locks shows here --------------------------------------------------------
 

@@ -5,6 +5,7 @@ mod double_pendulum;
 mod henon_heiles;
 mod oscillator;
 mod ring;
+mod spherical_pendulum;
 
 use cart_pole::CartPole;
 use dalembert_python::parameters;
@@ -12,5 +13,13 @@ use double_pendulum::DoublePendulum;
 use henon_heiles::HenonHeiles;
 use oscillator::ShakenOscillator;
 use ring::Ring;
+use spherical_pendulum::SphericalPendulum;
 
-dalembert_python::module!(dalembert_scenes { Ring, DoublePendulum, HenonHeiles, ShakenOscillator, CartPole });
+dalembert_python::module!(dalembert_scenes {
+    Ring,
+    DoublePendulum,
+    HenonHeiles,
+    ShakenOscillator,
+    CartPole,
+    SphericalPendulum,
+});

@@ -29,16 +29,6 @@ def of_rust(reference, name):
     )
 
 
-@pytest.fixture(scope="session")
-def reference(request):
-    """Runs of the same systems by a program in Rust that knows nothing of Python: name, t, q, v, p, energy as bits."""
-    records = {}
-    for line in request.config.getoption("reference").read_text().splitlines():
-        name, *bits = line.split()
-        records.setdefault(name, []).append(bits)
-    return records
-
-
 @pytest.mark.parametrize("rule", Ring.RULES)
 def test_a_run_is_that_of_rust_bit_by_bit(ring, reference, rule):
     run = ring.run(h=0.2, steps=1000, every=7, rule=rule, **START)

@@ -1,4 +1,4 @@
-"""Members that panic, and a model that was edited since its parts were written: of the package in ../trials."""
+"""Members that panic, a model that was edited since its parts were written, two rods: of the package in ../trials."""
 
 import os
 import subprocess
@@ -63,3 +63,16 @@ def test_an_edited_model_does_not_go_on(tmp_path, request):
         assert "is another study's: dalembert.model" in error
     assert write(0)[0] == [before[0], "Parts: 0 parts written, 2 were there; 0 members failed"]
     assert "2 parts written" in write(8)[0][1]
+
+
+def test_reactions_follow_an_input_for_each_step():
+    # Hanging at rest, the second bob is lifted more and more, until its rod pushes.
+    rods = trials.Rods([1.0, 0.7])
+    lift = np.arange(10.0)
+    u = np.column_stack([np.zeros(10), lift])
+    run = rods.run(h=0.01, steps=10, q=[0.0, -1.0, 0.0, -1.8], v=[0.0] * 4, u=u, reactions=True)
+    expected = lift[:, None] - 9.81 * np.array([1.7, 0.7])
+    assert run.reactions[1:] == pytest.approx(expected, abs=1e-11)
+    assert np.array_equal(run.reactions[0], run.reactions[1])
+    # Control: the input of the next step is another reaction.
+    assert not np.allclose(run.reactions[:-1], expected)

@@ -255,13 +255,13 @@ impl fmt::Display for StepError {
             ),
             Self::OffConstraint { constraint, value } => write!(
                 f,
-                "the configuration is off constraint {constraint} by {value:.3e}; `State::nearest` gives the nearest \
+                "the configuration is off constraint {constraint} by {value:.3e}; `nearest` gives the nearest \
                  state on all constraints"
             ),
             Self::LeavesConstraint { constraint, rate } => write!(
                 f,
                 "the velocity leads off constraint {constraint}, whose value changes at a rate of {rate:.3e}; \
-                 `State::nearest` gives the nearest state on all constraints"
+                 `nearest` gives the nearest state on all constraints"
             ),
             Self::DependentConstraints { constraint } => write!(
                 f,

@@ -16,6 +16,9 @@ pub trait Described<const N: usize>: Sized + 'static {
     type Input;
     /// The type of the listed names, `[&'static str; P]`, or `()` where there are none.
     type Parameters;
+    /// The type of λ, the multipliers of all constraints: `[Scalar; CONSTRAINTS]`, or `()` where there are
+    /// none.
+    type Multipliers;
     /// The type that is stepped: the system, or its view with an input and a time.
     type View<'a>: ActingForce<N, Scalar = Self::Scalar>;
 
@@ -23,6 +26,8 @@ pub trait Described<const N: usize>: Sized + 'static {
     const INPUTS: usize;
     /// Whether L, R or f take the time.
     const TAKES_TIME: bool;
+    /// The length of λ.
+    const CONSTRAINTS: usize;
     /// The parameters by which steps are differentiated, as listed.
     const PARAMETERS: &'static [&'static str];
 

@@ -242,7 +242,7 @@ fn states_off_the_constraints_are_refused_by_name_and_the_nearest_is_given() -> 
     );
     let leaving = State::from_velocity(&system, [1.0, 0.0, 0.0], [0.1, 0.0, 0.0]).unwrap_err();
     assert_eq!(leaving, StepError::LeavesConstraint { constraint: 0, rate: 0.1 });
-    assert!(leaving.to_string().contains("State::nearest"));
+    assert!(leaving.to_string().contains("`nearest`"));
     // A run refuses a state made by hand.
     let by_hand = State { q: Vector3::new(1.0, 0.1, 0.0), p: Vector3::zeros() };
     let first = system.by(Midpoint, 0.05).run(by_hand).next().unwrap();

@@ -1,6 +1,8 @@
 //! The chapter "As a functional mock-up unit" of `docs/embedding.md`, and the unit in FMPy, an importer of
 //! PyPI.
 
+use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+
 use anyhow::{Result, ensure};
 use xshell::cmd;
 
@@ -25,6 +27,15 @@ pub fn run() -> Result<()> {
     let reference = work.path().join("reference.txt");
     let printed = cmd!(shell, "cargo run --quiet --release -p dalembert-fmu --example reference").output()?;
     shell.write_file(&reference, printed.stdout)?;
-    cmd!(shell, "{python} bindings/fmu/tests/importer.py {units...} {reference}").run()?;
+    let descriptions = work.path();
+    cmd!(shell, "cargo build --quiet --release -p dalembert-fmu --example constrained").run()?;
+    cmd!(
+        shell,
+        "cargo run --quiet --release -p dalembert-fmu --example constrained_description {descriptions}"
+    )
+    .run()?;
+    let library = project::target().join(format!("release/examples/{DLL_PREFIX}constrained{DLL_SUFFIX}"));
+    cmd!(shell, "{python} bindings/fmu/tests/importer.py {units...} {reference} {library} {descriptions}")
+        .run()?;
     Ok(())
 }

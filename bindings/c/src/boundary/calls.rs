@@ -7,18 +7,20 @@
 use dalembert::nalgebra::ComplexField;
 use dalembert::run::DrivenTrajectory;
 use dalembert::step::{Flow, Report, require_step_size};
-use dalembert_face::{Interface, start};
+use dalembert_face::{Interface, Multipliers, StepMade, start};
 
-use super::machine::{self, Entered, Given, Machine, Number, Rule, System, View};
+use super::machine::{self, Entered, Given, Lambda, Machine, Number, Rule, System, View};
 use super::{Held, advance, both, change, look, optional, place, read, seen, write};
 use crate::{CReport, Status};
 
-type Vector<C, const N: usize> = [Number<C, N>; N];
+/// N numbers of a system.
+pub type Vector<C, const N: usize> = [Number<C, N>; N];
 
 /// The caller's memory: opaque in C.
 pub type Memory<C, const N: usize> = Held<Machine<C, N>>;
 
-fn viewed<C: Entered<N>, const N: usize>(system: &System<C, N>, (u, t): Given<C, N>) -> View<'_, C, N> {
+/// The system with its input and time.
+pub fn viewed<C: Entered<N>, const N: usize>(system: &System<C, N>, (u, t): Given<C, N>) -> View<'_, C, N> {
     C::Of::view(system, u, t)
 }
 
@@ -44,7 +46,7 @@ pub unsafe fn init<C: Entered<N>, const N: usize>(
         let (system, q, v) = unsafe { (machine::parameters(read(parameters)?)?, read(q)?, read(v)?) };
         let run = start::<C::Of, N>(&system, given()?, h, [q, v])?;
         // SAFETY: the caller's promise.
-        unsafe { place(memory, C::SIGNATURE, Machine { system, run }) }
+        unsafe { place(memory, C::SIGNATURE, Machine::begun(system, run)) }
     };
     begin().into()
 }
@@ -78,13 +80,16 @@ pub unsafe fn step<C: Entered<N>, const N: usize>(
     given: impl FnOnce() -> Result<Given<C, N>, Status>,
     report: *mut CReport,
 ) -> Status {
-    let ask = |Machine { system, run }: &mut Machine<C, N>| {
+    let ask = |Machine { system, run, last }: &mut Machine<C, N>| {
         let given = given()?;
         optional(report)?;
+        let (h, state) = (run.step_size(), *run.state());
         // A run that fails here has not been written to: nothing has to be put back.
         let taken = run.advance(&viewed::<C, N>(system, given));
+        let step = taken.as_ref()?;
+        *last = Lambda::<C, N>::keep(|| (given, StepMade { h, state, step: *step }));
         // SAFETY: the caller's promise.
-        unsafe { tell(report, &taken.as_ref()?.report, run) }
+        unsafe { tell(report, &step.report, run) }
     };
     // SAFETY: the caller's promise.
     unsafe { advance(memory, C::SIGNATURE, ask) }.into()
@@ -100,13 +105,15 @@ pub unsafe fn step_linearized<C: Entered<N>, const N: usize>(
     report: *mut CReport,
     linearized: *mut C::Linearized,
 ) -> Status {
-    let ask = |Machine { system, run }: &mut Machine<C, N>| {
+    let ask = |Machine { system, run, last }: &mut Machine<C, N>| {
         let given = given()?;
         optional(report)?;
         seen(linearized)?;
+        let (h, state) = (run.step_size(), *run.state());
         let view = viewed::<C, N>(system, given);
         let taken = run.advance_linearized(&view)?;
         let derivatives = C::linearized(&taken)?;
+        *last = Lambda::<C, N>::keep(|| (given, StepMade { h, state, step: *taken.step() }));
         // SAFETY: the caller's promise.
         unsafe {
             tell(report, &taken.step().report, run)?;
@@ -143,7 +150,7 @@ pub unsafe fn velocity<C: Entered<N>, const N: usize>(
     given: impl FnOnce() -> Result<Given<C, N>, Status>,
     v: *mut Vector<C, N>,
 ) -> Status {
-    let ask = |Machine { system, run }: &Machine<C, N>| {
+    let ask = |Machine { system, run, .. }: &Machine<C, N>| {
         seen(v)?;
         let velocity = run.state().velocity(&viewed::<C, N>(system, given()?))?;
         // SAFETY: the caller's promise.
@@ -162,7 +169,7 @@ pub unsafe fn energy<C: Entered<N>, const N: usize>(
     given: impl FnOnce() -> Result<Given<C, N>, Status>,
     energy: *mut Number<C, N>,
 ) -> Status {
-    let ask = |Machine { system, run }: &Machine<C, N>| {
+    let ask = |Machine { system, run, .. }: &Machine<C, N>| {
         seen(energy)?;
         let value = run.state().energy(&viewed::<C, N>(system, given()?))?;
         if !value.is_finite() {
@@ -199,7 +206,7 @@ pub unsafe fn state_after<C: Entered<N>, const N: usize>(
     after: Number<C, N>,
     [q, p]: [*mut Vector<C, N>; 2],
 ) -> Status {
-    let ask = |Machine { system, run }: &Machine<C, N>| {
+    let ask = |Machine { system, run, .. }: &Machine<C, N>| {
         let at =
             machine::state_after::<_, Rule<C, N>, N>(&viewed::<C, N>(system, given()?), after, run.state())?;
         // SAFETY: the caller's promise.
@@ -238,7 +245,7 @@ pub unsafe fn set_parameters<C: Entered<N>, const N: usize>(
     let ask = |machine: &mut Machine<C, N>| {
         // SAFETY: the caller's promise.
         let system = machine::parameters(unsafe { read(parameters)? })?;
-        *machine = Machine { system, run: DrivenTrajectory::resume(machine.run.present()) };
+        *machine = Machine::begun(system, DrivenTrajectory::resume(machine.run.present()));
         Ok(())
     };
     // SAFETY: the caller's promise.

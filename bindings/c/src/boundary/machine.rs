@@ -4,7 +4,7 @@ use dalembert::run::DrivenTrajectory;
 use dalembert::step::{Flow, Quantity, StepTaken};
 use dalembert::system::Scalar;
 use dalembert::{State, StepError};
-use dalembert_face::{Column, Interface, by_state};
+use dalembert_face::{Column, Interface, Multipliers, StepMade, by_state};
 
 use super::{CParameters, Plain, refused};
 use crate::Status;
@@ -47,17 +47,31 @@ pub type Taken<'a, 's, C, const N: usize> = StepTaken<'a, View<'s, C, N>, Rule<C
 /// u and t of a step.
 pub type Given<C, const N: usize> = (<<C as Entered<N>>::Of as Interface<N>>::Input, Number<C, N>);
 
+/// The type of λ.
+pub type Lambda<C, const N: usize> = <<C as Entered<N>>::Of as Interface<N>>::Multipliers;
+/// A step with its input and time.
+pub type Made<C, const N: usize> = (Given<C, N>, StepMade<Number<C, N>, N>);
+
 /// The parameters and the run of a system: what lies behind the signature.
 pub struct Machine<C: Entered<N>, const N: usize> {
     /// The system, as C filled it in.
     pub system: System<C, N>,
     /// The run of its views.
     pub run: DrivenTrajectory<Kind<C, N>, Rule<C, N>, N>,
+    /// The last step with these parameters, of which λ is asked.
+    pub last: <Lambda<C, N> as Multipliers>::Kept<Made<C, N>>,
+}
+
+impl<C: Entered<N>, const N: usize> Machine<C, N> {
+    /// A run that has taken no step with these parameters.
+    pub fn begun(system: System<C, N>, run: DrivenTrajectory<Kind<C, N>, Rule<C, N>, N>) -> Self {
+        Self { system, run, last: Default::default() }
+    }
 }
 
 impl<C: Entered<N>, const N: usize> Clone for Machine<C, N> {
     fn clone(&self) -> Self {
-        Self { system: self.system, run: self.run.clone() }
+        Self { system: self.system, run: self.run.clone(), last: self.last }
     }
 }
 

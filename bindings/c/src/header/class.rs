@@ -2,6 +2,7 @@
 
 use core::fmt::{self, Display};
 
+use super::constrained::OnConstraints;
 use super::{Given, Header, Time};
 
 impl Header {
@@ -49,13 +50,14 @@ public:
         return {prefix}_set_parameters(&memory_, &parameters);
     }}
     [[nodiscard]] dalembert_status set_step_size({scalar} h) noexcept {{ return {prefix}_set_step_size(&memory_, h); }}
-
+{on_constraints}
 private:
     {prefix}_memory memory_{{}};
 }};
 #endif
 ",
             given_first = GivenFirst(given),
+            on_constraints = OnConstraints(self),
             time = Time(self),
             time_first = TimeFirst(self),
             t = if self.takes_time { ", t" } else { "" },

@@ -12,16 +12,20 @@ use crate::systems::{CartPole, DrivenCartPole, DrivenWinch, Ring, Swing, SwingAt
 use crate::{folder, output, program, there, those_that};
 
 /// The run in Rust that `programs/bits.c` makes in C, as it prints it.
-struct Lines(String);
+pub(super) struct Lines(pub(super) String);
 
 impl Lines {
-    fn show(&mut self, name: &str, values: impl IntoIterator<Item = f64>) {
+    pub(super) fn show(&mut self, name: &str, values: impl IntoIterator<Item = f64>) {
         self.0.push_str(name);
         values.into_iter().for_each(|value| self.0.push_str(&format!(" {:016x}", value.to_bits())));
         self.0.push('\n');
     }
 
-    fn by_state<S: Scalar + Into<f64>, const N: usize>(&mut self, name: &str, a: &PhaseMatrix<S, N>) {
+    pub(super) fn by_state<S: Scalar + Into<f64>, const N: usize>(
+        &mut self,
+        name: &str,
+        a: &PhaseMatrix<S, N>,
+    ) {
         let upper = (0..N)
             .map(|i| a.q_by_q.row(i).iter().chain(a.q_by_p.row(i).iter()).map(|x| (*x).into()).collect());
         let lower = (0..N)
@@ -29,7 +33,7 @@ impl Lines {
         self.show(name, upper.chain(lower).collect::<Vec<Vec<f64>>>().concat());
     }
 
-    fn by<S: Scalar + Into<f64>, const N: usize, const K: usize>(
+    pub(super) fn by<S: Scalar + Into<f64>, const N: usize, const K: usize>(
         &mut self,
         name: &str,
         b: &StateBy<S, N, K>,
@@ -124,7 +128,7 @@ fn expected() -> Result<String, StepError> {
     Ok(lines.0)
 }
 
-fn printed(program: &Path) -> String {
+pub(super) fn printed(program: &Path) -> String {
     let ended = output(&mut Command::new(program));
     assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stderr));
     String::from_utf8(ended.stdout).expect("text")
@@ -174,6 +178,7 @@ fn no_byte_is_used_beyond_what_c_declared() {
     for compiler in those_that(&["gcc", "clang"], "have the sanitizers", sanitizes) {
         printed(&program(&folder, compiler, "bits.c", &sanitized));
         printed(&program(&folder, compiler, "misuse.c", &sanitized));
+        printed(&program(&folder, compiler, "constrained.c", &sanitized));
         let control = program(&folder, compiler, "bits.c", &[&sanitized[..], &["-DBEYOND"]].concat());
         let said = output(&mut Command::new(control));
         assert!(

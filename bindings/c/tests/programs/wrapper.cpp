@@ -6,6 +6,7 @@
 
 #include "cart_pole.h"
 #include "ring.h"
+#include "spherical.h"
 #include "swing.h"
 #include "winch.h"
 
@@ -63,6 +64,19 @@ int main()
         return 10;
     if (ring.init({1, 0.01f, {{1.0f}, {}}, {}}, 0.1f, {0.0f, 1.2f}, {0.5f, 0.0f}) != DALEMBERT_OK || ring.step() != DALEMBERT_OK)
         return 11;
+
+    const spherical_parameters sphere{1.3, 0.4};
+    spherical_run bob;
+    spherical_run::vector place{}, speed{};
+    std::array<double, 1> lambda{};
+    dalembert_violation violation{};
+    if (bob.init(sphere, 0.1, {0.0, 0.0, -1.1}, {}) != DALEMBERT_OFF_CONSTRAINT ||
+        spherical_run::violation(sphere, {0.0, 0.0, -1.1}, {}, violation) != DALEMBERT_OK || std::fabs(violation.amount - 0.105) > 1e-15 ||
+        spherical_run::nearest(sphere, {0.0, 0.0, -1.1}, {}, place, speed) != DALEMBERT_OK || bob.init(sphere, 0.1, place, speed) != DALEMBERT_OK)
+        return 12;
+    if (bob.reactions(lambda) != DALEMBERT_NO_STEP || bob.step() != DALEMBERT_OK || bob.reactions(lambda) != DALEMBERT_OK ||
+        std::fabs(lambda[0] + 1.3 * 9.81) > 1e-12)
+        return 13;
     std::puts("as in C");
     return 0;
 }

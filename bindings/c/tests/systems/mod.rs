@@ -1,5 +1,7 @@
-//! Systems of every kind that C can be given: with and without input and time, in `f64` and `f32`, by three
-//! rules.
+//! Systems of every kind that C can be given: with and without input, time and constraints, in `f64` and
+//! `f32`, by three rules.
+
+pub mod constrained;
 
 #[path = "../../../../examples/c/src/lib.rs"]
 mod template;

@@ -99,7 +99,10 @@ fn is_derived<I: Interface<N>, const N: usize>(
 ) -> bool {
     use Place::{Configuration, Energy, Input, Momentum, Parameter, Velocity};
     match (of.mode, unknown.place, known.place) {
-        (Mode::Initialization, Momentum(_) | Energy, Configuration(_) | Velocity(_)) => true,
+        // On constraints q and v are guesses, which the nearest state stands in for.
+        (Mode::Initialization, Momentum(_) | Energy, Configuration(_) | Velocity(_)) => {
+            I::System::CONSTRAINTS == 0
+        }
         (Mode::Initialization, ..) => false,
         // v and E hang on the parameters at constant (q, p) too.
         (_, Configuration(_) | Momentum(_), Parameter { .. }) => listed::<I, N>(known).is_some(),

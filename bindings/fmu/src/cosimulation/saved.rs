@@ -5,7 +5,7 @@
 use dalembert::State;
 use dalembert::run::{Checkpoint, DrivenTrajectory};
 use dalembert::system::Scalar;
-use dalembert_face::{Fields, Interface, Number};
+use dalembert_face::{Described, Fields, Interface, Number};
 
 use super::CoSimulation;
 use crate::refusal::{Mode, Refusal};
@@ -24,6 +24,10 @@ pub fn bytes<I: Interface<N>, const N: usize>(of: &CoSimulation<I, N>) -> Vec<u8
         let Checkpoint { state, step_size, origin, steps } = run.present();
         words.extend([step_size.widen().to_bits(), origin.to_bits(), steps]);
         words.extend(state.q.iter().chain(&state.p).map(|value| value.widen().to_bits()));
+        if I::System::CONSTRAINTS > 0 {
+            words.push(of.reactions.len() as u64);
+            words.extend(of.reactions.iter().map(|value| value.widen().to_bits()));
+        }
     }
     words.iter().flat_map(|word| word.to_le_bytes()).collect()
 }
@@ -40,7 +44,7 @@ pub fn read<I: Interface<N>, const N: usize>(
         return Err(Refusal::Bytes);
     }
     let mut read = like.clone();
-    (read.run, read.last) = (None, None);
+    (read.run, read.last, read.reactions) = (None, None, Vec::new());
     read.mode = match next()? {
         0 => Mode::Instantiated,
         1 => Mode::Initialization,
@@ -69,6 +73,11 @@ pub fn read<I: Interface<N>, const N: usize>(
             *value = scalar(next()?)?;
         }
         read.run = Some(DrivenTrajectory::resume(Checkpoint { state, step_size, origin, steps }));
+        let length = if I::System::CONSTRAINTS > 0 { next()? } else { 0 };
+        if length != 0 && length != I::System::CONSTRAINTS as u64 {
+            return Err(Refusal::Bytes);
+        }
+        read.reactions = (0..length).map(|_| scalar(next()?)).collect::<Result<_, _>>()?;
     }
     if next().is_ok() { Err(Refusal::Bytes) } else { Ok(read) }
 }

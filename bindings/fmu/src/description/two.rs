@@ -6,7 +6,7 @@ use dalembert_face::{Interface, Number};
 
 use super::{To, Version, document, labelled, unknown, unknowns, valued};
 use crate::Unit;
-use crate::variables::{Role, Variable, type_name};
+use crate::variables::{Variable, type_name};
 
 impl<I: Interface<N>, const N: usize> Unit<I, N> {
     /// modelDescription.xml of FMI 2.0.
@@ -41,11 +41,14 @@ fn variable(reference: usize, of: &Variable, to: &mut To) -> io::Result<()> {
 }
 
 fn structure(variables: &[Variable], to: &mut To) -> io::Result<()> {
-    for (name, which) in [("Outputs", None), ("InitialUnknowns", Some(Role::Calculated))] {
+    list("Outputs", variables, Variable::is_output, to)?;
+    list("InitialUnknowns", variables, Variable::is_initial_unknown, to)
+}
+
+fn list(name: &str, variables: &[Variable], which: fn(&Variable) -> bool, to: &mut To) -> io::Result<()> {
+    let content = |to: &mut To| {
         // Counted from 1.
-        to.create_element(name).write_inner_content(|to| {
-            unknowns(variables, which, |reference| unknown(to, "Unknown", ("index", reference + 1)))
-        })?;
-    }
-    Ok(())
+        unknowns(variables, which, |reference| unknown(to, "Unknown", ("index", reference + 1)))
+    };
+    to.create_element(name).write_inner_content(content).map(drop)
 }

@@ -157,29 +157,82 @@ where
         watch: &Watch<'_>,
     ) -> Result<Ledger, Refusal> {
         let system = S::view(fields, given.inputs, given.time);
-        let by = system.by(self.0, h);
-        let (mut total, mut largest) = (EnergyLedger::default(), 0.0_f64);
-        let (mut run, mut state) = (by.run(*start), *start);
-        for step in 0..steps {
-            if step.is_multiple_of(Stop::STRIDE) && watch.pass(Some((step, steps))).is_break() {
-                return Err(Refusal::CalledOff);
-            }
-            let time = run.time();
-            let of_step = |state: &State<f64, N>, next: &State<f64, N>| {
-                system.later(time, |system| system.by(self.0, h).ledger(state, next))
-            };
-            let failed = |error| {
-                let state = [state.q, state.p].map(|vector| vector.as_slice().to_vec());
-                Refusal::Start(Failure { error, step, time: given.time + time, state })
-            };
-            let Some(next) = run.next() else { break };
-            let next = next.map_err(failed)?.state;
-            let ledger = of_step(&state, &next).map_err(failed)?;
-            largest = largest.max(ledger.remainder().abs());
-            total += ledger;
-            state = next;
-        }
-        let EnergyLedger { change, dissipated, work } = total;
-        Ok(Ledger { change, dissipated, work, largest, remainder: total.remainder() })
+        ledger((&system, self.0, h), given.time, start, steps, watch)
     }
+}
+
+/// A rule, of a system with constraints.
+pub struct OnConstraints<M>(pub M);
+
+impl<S, M, const N: usize> Checks<S, N> for OnConstraints<M>
+where
+    S: System<N>,
+    for<'a> S::View<'a>: Discrete<M, N> + ForceWork<M, N>,
+    M: Copy + Send + Sync + 'static,
+{
+    /// Refused: on constraints a step is that of the restricted pair, of which samples are not taken.
+    fn symmetries(
+        &self,
+        _: &S::Fields,
+        _: Given<'_>,
+        _: f64,
+        _: &[Affine],
+        _: &Region<'_>,
+        _: &Watch<'_>,
+    ) -> Result<Vec<Symmetry>, Refusal> {
+        Err(Refusal::OnConstraints(
+            "symmetries: those of systems without constraints; look at a momentum along a run, or take minimal coordinates",
+        ))
+    }
+
+    fn ledger(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        h: f64,
+        start: &State<f64, N>,
+        steps: u64,
+        watch: &Watch<'_>,
+    ) -> Result<Ledger, Refusal> {
+        let system = S::view(fields, given.inputs, given.time);
+        ledger((&system, self.0, h), given.time, start, steps, watch)
+    }
+}
+
+/// Where the energy of a run of so many steps went, which begins at `origin`.
+fn ledger<L, M, const N: usize>(
+    (system, method, h): (&L, M, f64),
+    origin: f64,
+    start: &State<f64, N>,
+    steps: u64,
+    watch: &Watch<'_>,
+) -> Result<Ledger, Refusal>
+where
+    L: Discrete<M, N> + ForceWork<M, N> + Lagrangian<N, Scalar = f64>,
+    M: Copy,
+{
+    let by = system.by(method, h);
+    let (mut total, mut largest) = (EnergyLedger::default(), 0.0_f64);
+    let (mut run, mut state) = (by.run(*start), *start);
+    for step in 0..steps {
+        if step.is_multiple_of(Stop::STRIDE) && watch.pass(Some((step, steps))).is_break() {
+            return Err(Refusal::CalledOff);
+        }
+        let time = run.time();
+        let of_step = |state: &State<f64, N>, next: &State<f64, N>| {
+            system.later(time, |system| system.by(method, h).ledger(state, next))
+        };
+        let failed = |error| {
+            let state = [state.q, state.p].map(|vector| vector.as_slice().to_vec());
+            Refusal::Start(Failure { error, step, time: origin + time, state })
+        };
+        let Some(next) = run.next() else { break };
+        let next = next.map_err(failed)?.state;
+        let ledger = of_step(&state, &next).map_err(failed)?;
+        largest = largest.max(ledger.remainder().abs());
+        total += ledger;
+        state = next;
+    }
+    let EnergyLedger { change, dissipated, work } = total;
+    Ok(Ledger { change, dissipated, work, largest, remainder: total.remainder() })
 }

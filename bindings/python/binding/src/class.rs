@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::{PoisonError, RwLock};
 
-use numpy::PyUntypedArrayMethods;
+use numpy::{PyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyAttributeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
@@ -15,7 +15,7 @@ use crate::ensemble;
 use crate::error::{of_events, of_memory, of_refusal, of_step, warn};
 use crate::linearization::Linearization;
 use crate::model::{Kind, Model, MotionGiven, Run as Asked, Start};
-use crate::motion;
+use crate::motion::{self, Along};
 use crate::offer::{ErrorAsked, Stepping};
 use crate::record::Stop;
 use crate::reports::{EnergyLedger, Symmetry};
@@ -165,6 +165,41 @@ fn times(kind: &dyn Kind, t: Option<&Bound<'_, PyAny>>, shape: &[usize]) -> PyRe
     Ok(times)
 }
 
+/// q and v, as arrays of one shape.
+type Pair<'py> = (Bound<'py, PyArrayDyn<f64>>, Bound<'py, PyArrayDyn<f64>>);
+
+/// States, one after the other.
+struct States {
+    /// Their times, or that of all.
+    times: Vec<f64>,
+    q: Vec<f64>,
+    /// Velocities or momenta.
+    other: Vec<f64>,
+    /// The shape of the array in which they are given.
+    shape: Vec<usize>,
+}
+
+/// The states that are given as arrays whose last dimension is n.
+fn states(
+    kind: &dyn Kind,
+    q: &Bound<'_, PyAny>,
+    (name, other): (&str, &Bound<'_, PyAny>),
+    t: Option<&Bound<'_, PyAny>>,
+) -> PyResult<States> {
+    let n = kind.coordinates();
+    let (q, other) = (array("q", q)?, array(name, other)?);
+    if q.shape().last() != Some(&n) {
+        return Err(arguments::of_shape("q", &format!("(…, {n})"), q.shape()));
+    }
+    if q.shape() != other.shape() {
+        let shape: Vec<String> = q.shape().iter().map(usize::to_string).collect();
+        return Err(arguments::of_shape(name, &format!("of q, ({})", shape.join(", ")), other.shape()));
+    }
+    let shape = q.shape()[..q.ndim() - 1].to_vec();
+    let times = times(kind, t, &shape)?;
+    Ok(States { times, q: arguments::numbers(&q), other: arguments::numbers(&other), shape })
+}
+
 /// Translations along each coordinate, and rotations in the plane of each two.
 fn of_space(n: usize) -> Vec<Affine> {
     let unit = |k: usize| (0..n).map(|i| if i == k { 1.0 } else { 0.0 }).collect::<Vec<_>>();
@@ -191,6 +226,17 @@ fn affine(given: &Bound<'_, PyDict>, n: usize) -> PyResult<Vec<Affine>> {
         Ok(Affine { linear: arguments::numbers(&linear), constant: vector(&name, &constant, n)?, name })
     };
     given.iter().map(generator).collect()
+}
+
+/// Fails where there are no constraints.
+fn require_constraints(kind: &dyn Kind) -> PyResult<()> {
+    match kind.constraints() {
+        0 => Err(PyTypeError::new_err(format!(
+            "{} has no constraints: every (q, v) is a state of it, and there are no reactions",
+            kind.name()
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// The steps that are asked for.
@@ -290,6 +336,7 @@ impl System {
     /// u : the input, or an array with one for each step
     /// t : the time at the start, of a system that takes it; 0 unless said
     /// derivatives : whether records have derivatives by start and parameters
+    /// reactions : whether records have λ, of a system with constraints
     /// events : up to eight functions whose zeros are found, to rounding: each a Plane, or a callable of (t, q, v) that returns a
     ///     number; with an attribute `direction`, 1 or -1, crossings one way alone count, and one with `terminal` ends the run
     /// progress : is called with the steps taken and to take, some twenty times a second
@@ -297,7 +344,7 @@ impl System {
     /// Raises
     /// ------
     /// StepError, ToleranceError, TypeError, ValueError
-    #[pyo3(signature = (*, q, v=None, p=None, h=None, steps=None, tolerance=None, until=None, every=1, rule=None, u=None, t=None, derivatives=false, events=None, progress=None))]
+    #[pyo3(signature = (*, q, v=None, p=None, h=None, steps=None, tolerance=None, until=None, every=1, rule=None, u=None, t=None, derivatives=false, reactions=false, events=None, progress=None))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn run(
         &self,
@@ -314,11 +361,15 @@ impl System {
         u: Option<&Bound<'_, PyAny>>,
         t: Option<f64>,
         derivatives: bool,
+        reactions: bool,
         events: Option<Vec<Bound<'_, PyAny>>>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Run> {
         let model = self.model();
         let kind = model.kind();
+        if reactions {
+            require_constraints(kind)?;
+        }
         let stepping = stepping(h, steps, tolerance, until, rule)?;
         if matches!(stepping, Stepping::ToError(_)) && derivatives {
             return Err(PyTypeError::new_err(
@@ -331,8 +382,13 @@ impl System {
         }
         let raised = Raised::default();
         let events = watching::functions(py, events, kind.coordinates(), &raised)?;
-        let asked =
-            Asked { start: given.start(), stepping, every, is_differentiated: derivatives, events: &events };
+        let asked = Asked {
+            start: given.start(),
+            stepping,
+            every,
+            along: Along { derivatives, reactions },
+            events: &events,
+        };
         let told = |py: Python<'_>, far: (u64, u64)| {
             progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, far).map(drop))
         };
@@ -470,6 +526,34 @@ impl System {
         Linearization::new(py, linearized, kind.coordinates(), [kind.inputs(), kind.parameters().len()])
     }
 
+    /// The configuration and velocity on all constraints that are nearest to (q, v) in the metric of the
+    /// mass, or those of as many as there are rows: where a `run` may start.
+    ///
+    /// Parameters
+    /// ----------
+    /// q, v : arrays whose last dimension is n
+    /// t : the time, of a system that takes it: one for all, or one for each state
+    ///
+    /// Returns
+    /// -------
+    /// q, v : arrays of these shapes
+    #[pyo3(signature = (*, q, v, t=None))]
+    fn nearest<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        v: &Bound<'py, PyAny>,
+        t: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Pair<'py>> {
+        let model = self.model();
+        require_constraints(model.kind())?;
+        let States { times, q, other, shape } = states(model.kind(), q, ("v", v), t)?;
+        let found = unless_called_off(py, |watch| model.nearest(&times, [&q, &other], watch))?;
+        let [q, v] = found.map_err(|refusal| of_refusal(py, refusal, None, &[]))?;
+        let shape = [shape, vec![model.kind().coordinates()]].concat();
+        Ok((to_array(py, q, shape.clone())?, to_array(py, v, shape)?))
+    }
+
     /// The energy v·∂L/∂v − L of a state, or of as many as there are rows.
     ///
     /// Parameters
@@ -486,23 +570,12 @@ impl System {
         t: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let model = self.model();
-        let n = model.kind().coordinates();
         let (name, other, is_velocity) = match (v, p) {
             (Some(v), None) => ("v", v, true),
             (None, Some(p)) => ("p", p, false),
             _ => return Err(PyTypeError::new_err("a state is q with either v or p")),
         };
-        let (q, other) = (array("q", q)?, array(name, other)?);
-        if q.shape().last() != Some(&n) {
-            return Err(arguments::of_shape("q", &format!("(…, {n})"), q.shape()));
-        }
-        if q.shape() != other.shape() {
-            let shape: Vec<String> = q.shape().iter().map(usize::to_string).collect();
-            return Err(arguments::of_shape(name, &format!("of q, ({})", shape.join(", ")), other.shape()));
-        }
-        let shape = q.shape()[..q.ndim() - 1].to_vec();
-        let times = times(model.kind(), t, &shape)?;
-        let (q, other) = (arguments::numbers(&q), arguments::numbers(&other));
+        let States { times, q, other, shape } = states(model.kind(), q, (name, other), t)?;
         let motion = if is_velocity { MotionGiven::Velocity(&other) } else { MotionGiven::Momentum(&other) };
         let energies = unless_called_off(py, |watch| model.energies(&times, &q, motion, watch))?;
         let energies = energies.map_err(|refusal| of_refusal(py, refusal, None, &[]))?;

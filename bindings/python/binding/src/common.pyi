@@ -157,6 +157,10 @@ class Run:
     def by_parameters(self) -> _Array | None:
         """∂(q, p)/∂θ with (q0, p0) held, shape (records, 2n, parameters); None unless `derivatives=True`."""
     @property
+    def reactions(self) -> _Array | None:
+        """λ of the constraints over the step that led there, at the start over the first, shape (records, constraints); None
+        unless `reactions=True`."""
+    @property
     def steps(self) -> int:
         """Steps taken."""
     @property
@@ -287,6 +291,7 @@ class System:
     COORDINATES: ClassVar[int]
     INPUTS: ClassVar[int]
     TAKES_TIME: ClassVar[bool]
+    CONSTRAINTS: ClassVar[int]
     PARAMETERS: ClassVar[tuple[str, ...]]
     RULES: ClassVar[tuple[str, ...]]
     STRUCTURE: ClassVar[_Structure]
@@ -306,6 +311,7 @@ class System:
         u: _Numbers | None = None,
         t: float | None = None,
         derivatives: bool = False,
+        reactions: bool = False,
         events: Sequence[Plane | Callable[[float, _Array, _Array], float]] | None = None,
         progress: Callable[[int, int], object] | None = None,
     ) -> Run:
@@ -396,6 +402,8 @@ class System:
         rule: str | None = None,
     ) -> EnergyLedger:
         """Where the energy of a run went, by the rule's own account of what forces did."""
+    def nearest(self, *, q: _Numbers, v: _Numbers, t: float | _Numbers | None = None) -> tuple[_Array, _Array]:
+        """The configuration and velocity on all constraints that are nearest to (q, v), or those of as many as there are rows."""
     def energy(
         self,
         *,

@@ -197,6 +197,20 @@ fn described<'py>(py: Python<'py>, error: &StepError) -> PyResult<(&'static str,
             data.set_item("written", written)?;
             "GeneratedDiffers"
         }
+        StepError::OffConstraint { constraint, value } => {
+            data.set_item("constraint", constraint)?;
+            data.set_item("value", value)?;
+            "OffConstraint"
+        }
+        StepError::LeavesConstraint { constraint, rate } => {
+            data.set_item("constraint", constraint)?;
+            data.set_item("rate", rate)?;
+            "LeavesConstraint"
+        }
+        StepError::DependentConstraints { constraint } => {
+            data.set_item("constraint", constraint)?;
+            "DependentConstraints"
+        }
         _ => "StepError",
     };
     Ok((kind, data))
@@ -213,14 +227,15 @@ pub fn of_refusal(py: Python<'_>, refusal: Refusal, rule: Option<&str>, rules: &
             ))
         }
         Refusal::NotDriven => PyValueError::new_err(
-            "rule: inputs that change and derivatives are those of rules; got a splitting or none",
+            "rule: inputs that change, reactions and derivatives are those of rules; got a splitting or none",
         ),
         Refusal::NotWatched => PyValueError::new_err(
-            "events: those of runs that hold one input, without derivatives; leave the others out",
+            "events: those of runs that hold one input, without derivatives and reactions; leave the others out",
         ),
         Refusal::NotChecked => PyValueError::new_err(
             "rule: symmetries and energies are accounted for by midpoint, trapezoidal, fitted and one_sided rules",
         ),
+        Refusal::OnConstraints(instead) => PyValueError::new_err(instead),
         Refusal::Samples(error) => PyValueError::new_err(error.to_string()),
         Refusal::NoError => PyValueError::new_err(
             "tolerance: the rules of this system offer no method to an error asked for; give h and steps",

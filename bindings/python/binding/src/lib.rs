@@ -11,6 +11,7 @@
 //! | `ring.ensemble(h=0.1, steps=1000, q=…, v=…)` | many members on all cores: arrays, or Parquet files that are their own checkpoint |
 //! | `ring.linearization(h=0.1, q=…, v=…)` | a step with A, B and derivatives by parameters |
 //! | `ring.energy(q=…, v=…)` | energies |
+//! | `bob.nearest(q=…, v=…)` | of a system with constraints: the nearest state on them |
 //! | `Ring.RULES`, `Ring.STRUCTURE`, … | what is known of the class |
 //!
 //! A run is one call: it takes its steps without the lock of the interpreter, hands its arrays over without a copy, and
@@ -139,6 +140,7 @@ macro_rules! system {
                 type Fields = $system;
                 type Input = <$system as Described<N>>::Input;
                 type Parameters = <$system as Described<N>>::Parameters;
+                type Multipliers = <$system as Described<N>>::Multipliers;
                 type View<'a> = <$system as Described<N>>::View<'a>;
 
                 fn view<'a>(fields: &'a $system, u: &[f64], t: f64) -> Self::View<'a> {
@@ -190,7 +192,7 @@ macro_rules! offers {
                 name: $name,
                 steps: probe.steps_in_lanes().or_else(|| probe.steps()),
                 driven: probe.driven_steps(),
-                checks: probe.checks(),
+                checks: probe.checks().or_else(|| probe.checks_on_constraints()),
             }
         },)*]
     };

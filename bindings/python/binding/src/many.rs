@@ -197,7 +197,7 @@ fn by_some<'a, S: Offers<N>, const N: usize>(
             let plan = Plan { h, steps, every: asked.every.map(|every| every.max(1)), error: None };
             Unwatched::Fixed(S::offered(rule)?.steps.ok_or(Refusal::Rule)?, plan)
         }
-        Stepping::ToError(asked) => Unwatched::ToError(S::steps_to_error().ok_or(Refusal::NoError)?, asked),
+        Stepping::ToError(asked) => Unwatched::ToError(S::to_error()?, asked),
     };
     Ok(BySome(match steps {
         steps if !asked.events.is_empty() => {

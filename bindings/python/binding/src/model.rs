@@ -7,12 +7,12 @@ use dalembert::nalgebra::SVector;
 use dalembert::run::Stop as Told;
 use dalembert::system::Structure;
 use dalembert::{Lagrangian, State, StepError};
-use dalembert_face::{Described, Field, Fields, Number};
+use dalembert_face::{Described, Field, Fields, Holding, Number};
 
 use crate::checks::{Affine, Ledger, Region, Symmetry};
 use crate::events::{Event, Events};
 use crate::many::{self, Asked, Control, Kept, NoResult, Written};
-use crate::motion::{Given, Motion, measured};
+use crate::motion::{Along, Given, Motion, measured};
 use crate::offer::{Offer, Offers, Stepping};
 use crate::record::{Failure, Guarded, Plan, Record, Stop};
 use crate::refusal::Refusal;
@@ -32,6 +32,8 @@ pub trait Kind: Send + Sync {
     fn inputs(&self) -> usize;
     /// Whether L, R or f take the time.
     fn takes_time(&self) -> bool;
+    /// The number of constraints.
+    fn constraints(&self) -> usize;
     /// The parameters by which steps are differentiated.
     fn parameters(&self) -> &'static [&'static str];
     /// The methods by which it is stepped, as `rule=` calls them.
@@ -110,6 +112,18 @@ pub trait Model: Send + Sync {
         members_per_part: u64,
     ) -> Result<Written, NoResult>;
 
+    /// The configurations and velocities on all constraints that are nearest to those given, one after the
+    /// other, at one time or each at its own.
+    ///
+    /// # Errors
+    /// The first that fails.
+    fn nearest(
+        &self,
+        times: &[f64],
+        motion: [&[f64]; 2],
+        watch: &Watch<'_>,
+    ) -> Result<[Vec<f64>; 2], Refusal>;
+
     /// The energies of states, q and v or p of one after the other, at one time or each at its own.
     ///
     /// # Errors
@@ -154,8 +168,8 @@ pub struct Run<'a> {
     pub stepping: Stepping<'a>,
     /// Steps from one record to the next.
     pub every: u64,
-    /// Whether it carries along how it follows start and parameters.
-    pub is_differentiated: bool,
+    /// Questions that it answers along its way.
+    pub along: Along,
     /// Events to look for on the way.
     pub events: &'a [Event<'a>],
 }
@@ -215,6 +229,10 @@ impl<S: Offers<N>, const N: usize> Kind for KindOf<S, N> {
 
     fn takes_time(&self) -> bool {
         S::Fields::TAKES_TIME
+    }
+
+    fn constraints(&self) -> usize {
+        S::Fields::CONSTRAINTS
     }
 
     fn parameters(&self) -> &'static [&'static str] {
@@ -279,7 +297,7 @@ impl<S: Offers<N>, const N: usize> Model for ModelOf<S, N> {
     }
 
     fn run(&self, run: &Run<'_>, watch: &Watch<'_>) -> Result<Ran, Refusal> {
-        let Run { start: given, stepping, every, is_differentiated, events: asked } = run;
+        let Run { start: given, stepping, every, along, events: asked } = run;
         let start = self.state(given)?;
         let origin = given.time;
         let events = (!asked.is_empty()).then_some(Events { asked, origin });
@@ -292,7 +310,7 @@ impl<S: Offers<N>, const N: usize> Model for ModelOf<S, N> {
             Stepping::Fixed { h, steps: count, rule } => {
                 let mut record = |motion: &mut dyn Motion<N>| record(motion, count);
                 let Offer { steps, driven, .. } = S::offered(rule)?;
-                if given.inputs.len() == S::Fields::INPUTS && !is_differentiated {
+                if given.inputs.len() == S::Fields::INPUTS && !along.is_any() {
                     let steps = steps.ok_or(Refusal::Rule)?;
                     steps.run(&self.view(given), h, &start, events, &mut record);
                 } else if events.is_some() {
@@ -300,11 +318,11 @@ impl<S: Offers<N>, const N: usize> Model for ModelOf<S, N> {
                 } else {
                     let driven = driven.ok_or(Refusal::NotDriven)?;
                     let given = Self::given(given);
-                    driven.run(&self.fields, given, h, &start, *is_differentiated, &mut record);
+                    driven.run(&self.fields, given, h, &start, *along, &mut record);
                 }
             }
             Stepping::ToError(asked) => {
-                let steps = S::steps_to_error().ok_or(Refusal::NoError)?;
+                let steps = S::to_error()?;
                 let is_called_off = || watch.is_called_off();
                 let told = Told::when(&is_called_off);
                 let run = steps.run(&self.view(given), asked, &start, events, &mut record, told);
@@ -366,6 +384,32 @@ impl<S: Offers<N>, const N: usize> Model for ModelOf<S, N> {
         members_per_part: u64,
     ) -> Result<Written, NoResult> {
         many::written::<S, N>(&self.fields, asked, control, folder, members_per_part)
+    }
+
+    fn nearest(
+        &self,
+        times: &[f64],
+        [q, v]: [&[f64]; 2],
+        watch: &Watch<'_>,
+    ) -> Result<[Vec<f64>; 2], Refusal> {
+        let inputs = vec![0.0; S::Fields::INPUTS];
+        let vector = SVector::<f64, N>::from_column_slice;
+        let mut found = [q, v].map(|given| Vec::with_capacity(given.len()));
+        for (k, (q, v)) in q.chunks_exact(N).zip(v.chunks_exact(N)).enumerate() {
+            if (k as u64).is_multiple_of(Told::STRIDE) && watch.is_called_off() {
+                return Err(Refusal::CalledOff);
+            }
+            let time = times.get(k).or(times.first()).copied().unwrap_or(0.0);
+            let system = S::view(&self.fields, &inputs, time);
+            let state = S::Multipliers::nearest(&system, vector(q), vector(v));
+            let motion = state.and_then(|state| Ok([state.q, state.velocity(&system)?]));
+            let motion = motion.map_err(|error| {
+                let state = [q.to_vec(), Vec::new()];
+                Refusal::Start(Failure { error, step: 0, time, state })
+            })?;
+            found.iter_mut().zip(motion).for_each(|(all, found)| all.extend_from_slice(found.as_slice()));
+        }
+        Ok(found)
     }
 
     fn energies(

@@ -6,7 +6,7 @@ use dalembert::run::{DrivenTrajectory, Run};
 use dalembert::step::{Flow, Linearizable, Memory};
 use dalembert::{Lagrangian, State, StepError};
 
-use dalembert_face::{ByParameters, Described};
+use dalembert_face::{ByParameters, Described, Reacting, StepMade};
 
 use crate::derivatives::Dependence;
 use crate::system::System;
@@ -31,6 +31,14 @@ pub trait Motion<const N: usize> {
     /// How it follows the start and the parameters, where that is carried along.
     fn dependence(&self) -> Option<&Dependence<N>> {
         None
+    }
+
+    /// λ of the step that led here, of the first one at the start; nothing where it is not asked for.
+    ///
+    /// # Errors
+    /// Those of [`Reacting::reactions`], at the start those of the first step too.
+    fn reactions(&self) -> Result<Vec<f64>, StepError> {
+        Ok(Vec::new())
     }
 }
 
@@ -83,7 +91,24 @@ pub struct Given<'a> {
     pub time: f64,
 }
 
-/// A run whose input changes from step to step, or whose derivatives are carried along.
+/// The questions that a run answers along its way.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Along {
+    /// How it follows start and parameters.
+    pub derivatives: bool,
+    /// λ of its constraints.
+    pub reactions: bool,
+}
+
+impl Along {
+    /// Whether there are any.
+    #[must_use]
+    pub fn is_any(self) -> bool {
+        self.derivatives || self.reactions
+    }
+}
+
+/// A run whose input changes from step to step, or that is asked something along.
 pub struct StepByStep<'a, S: System<N>, M, const N: usize>
 where
     S::View<'static>: Flow<M, N>,
@@ -93,6 +118,9 @@ where
     taken: usize,
     run: DrivenTrajectory<S::View<'static>, M, N>,
     dependence: Option<Dependence<N>>,
+    has_reactions: bool,
+    /// The last step with its view, where λ is asked for.
+    made: Option<(S::View<'a>, StepMade<f64, N>)>,
 }
 
 impl<'a, S: System<N>, M, const N: usize> StepByStep<'a, S, M, N>
@@ -104,10 +132,11 @@ where
         given: Given<'a>,
         h: f64,
         start: State<f64, N>,
-        is_differentiated: bool,
+        along: Along,
     ) -> Self {
-        let dependence = is_differentiated.then(|| Dependence::none(S::Fields::PARAMETERS.len()));
-        Self { fields, given, taken: 0, run: DrivenTrajectory::new(h, start), dependence }
+        let dependence = along.derivatives.then(|| Dependence::none(S::Fields::PARAMETERS.len()));
+        let (run, has_reactions) = (DrivenTrajectory::new(h, start), along.reactions);
+        Self { fields, given, taken: 0, run, dependence, has_reactions, made: None }
     }
 
     /// The system of the next step, or of the last one where that was the last input.
@@ -126,9 +155,11 @@ where
     for<'v> S::View<'v>: Linearizable<M, N> + Flow<M, N, RunMemory = K>,
     K: for<'v> Memory<S::View<'v>, M, N>,
     S::Parameters: for<'v> ByParameters<S::View<'v>, M, N>,
+    S::Multipliers: for<'v> Reacting<S::View<'v>, M, N>,
 {
     fn advance(&mut self) -> Option<Result<Watched<f64, N>, EventError>> {
         let view = self.view();
+        let (h, state) = (self.run.step_size(), *self.run.state());
         let step = match &mut self.dependence {
             None => self.run.advance(&view),
             Some(dependence) => self.run.advance_linearized(&view).and_then(|taken| {
@@ -137,6 +168,9 @@ where
             }),
         };
         self.taken += 1;
+        if let (true, Ok(step)) = (self.has_reactions, &step) {
+            self.made = Some((view, StepMade { h, state, step: *step }));
+        }
         Some(step.map(Watched::Step).map_err(EventError::from))
     }
 
@@ -154,5 +188,17 @@ where
 
     fn dependence(&self) -> Option<&Dependence<N>> {
         self.dependence.as_ref()
+    }
+
+    fn reactions(&self) -> Result<Vec<f64>, StepError> {
+        if !self.has_reactions {
+            return Ok(Vec::new());
+        }
+        if let Some((view, made)) = &self.made {
+            return Ok(S::Multipliers::reactions(view, made)?.as_ref().to_vec());
+        }
+        let (view, h, state) = (self.view(), self.run.step_size(), *self.run.state());
+        let step = DrivenTrajectory::<S::View<'static>, M, N>::new(h, state).advance(&view)?;
+        Ok(S::Multipliers::reactions(&view, &StepMade { h, state, step })?.as_ref().to_vec())
     }
 }

@@ -7,12 +7,12 @@ use dalembert::step::{ClosedForm, Discrete, Flow, FlowInLanes, ForceWork, Linear
 use dalembert::tolerance::{OffersMethods, ToleranceError};
 use dalembert::{State, StepError};
 use dalembert_ensemble::{OneByOne, Plan, SideBySide, ToError};
-use dalembert_face::{ByInput, ByParameters, Column};
+use dalembert_face::{ByInput, ByParameters, Column, Described, Reacting};
 
 use crate::checks::{self, Checks};
 use crate::derivatives::{column_rows, matrix_rows};
 use crate::events::{Events, watched};
-use crate::motion::{Given, Motion, Of, StepByStep};
+use crate::motion::{Along, Given, Motion, Of, StepByStep};
 use crate::record::Guarded;
 use crate::refusal::Refusal;
 use crate::system::System;
@@ -39,6 +39,19 @@ pub trait Offers<const N: usize>: System<N> {
 
     /// Runs to an error asked for, where the rules offer some.
     fn steps_to_error() -> Option<Box<dyn StepsToError<Self, N>>>;
+
+    /// Runs to an error asked for.
+    ///
+    /// # Errors
+    /// [`Refusal::NoError`], [`Refusal::OnConstraints`].
+    fn to_error() -> Result<Box<dyn StepsToError<Self, N>>, Refusal> {
+        Self::steps_to_error().ok_or(match Self::Fields::CONSTRAINTS {
+            0 => Refusal::NoError,
+            _ => Refusal::OnConstraints(
+                "tolerance: on constraints no method is chosen for an error; give h and steps",
+            ),
+        })
+    }
 
     /// The offer of the rule of this name, or of the first.
     ///
@@ -96,14 +109,14 @@ pub trait Steps<S: System<N>, const N: usize>: Send + Sync {
 
 /// Steps by a rule, each with an input of its own and with all its derivatives.
 pub trait DrivenSteps<S: System<N>, const N: usize>: Send + Sync {
-    /// A run from `start`; it carries along how it follows start and parameters where it `is_differentiated`.
+    /// A run from `start`, with what is asked of it along.
     fn run(
         &self,
         fields: &S::Fields,
         given: Given<'_>,
         h: f64,
         start: &State<f64, N>,
-        is_differentiated: bool,
+        along: Along,
         record: Record<'_, N>,
     );
 
@@ -213,6 +226,11 @@ pub trait NotOffered<S: System<N>, const N: usize> {
 
     /// `None`: the method has no discrete objects by formulas.
     fn checks(&self) -> Option<Box<dyn Checks<S, N>>> {
+        None
+    }
+
+    /// `None`: of these discrete objects no energy is accounted for.
+    fn checks_on_constraints(&self) -> Option<Box<dyn Checks<S, N>>> {
         None
     }
 
@@ -333,6 +351,7 @@ where
     K: for<'a> Memory<S::View<'a>, M, N> + 'static,
     S::Input: for<'a> ByInput<S::View<'a>, M, N>,
     S::Parameters: for<'a> ByParameters<S::View<'a>, M, N>,
+    S::Multipliers: for<'a> Reacting<S::View<'a>, M, N>,
     M: 'static,
 {
     /// Steps with inputs of their own and with derivatives.
@@ -349,6 +368,7 @@ where
     K: for<'a> Memory<S::View<'a>, M, N> + 'static,
     S::Input: for<'a> ByInput<S::View<'a>, M, N>,
     S::Parameters: for<'a> ByParameters<S::View<'a>, M, N>,
+    S::Multipliers: for<'a> Reacting<S::View<'a>, M, N>,
     M: 'static,
 {
     fn run(
@@ -357,10 +377,10 @@ where
         given: Given<'_>,
         h: f64,
         start: &State<f64, N>,
-        is_differentiated: bool,
+        along: Along,
         record: Record<'_, N>,
     ) {
-        record(&mut StepByStep::<S, M, N>::new(fields, given, h, *start, is_differentiated));
+        record(&mut StepByStep::<S, M, N>::new(fields, given, h, *start, along));
     }
 
     fn linearized(
@@ -383,7 +403,7 @@ where
 
 impl<S, M, const N: usize> Probe<S, M, N>
 where
-    S: System<N>,
+    S: System<N, Multipliers = ()>,
     for<'a> S::View<'a>: ClosedForm<M, N> + Discrete<M, N> + ForceWork<M, N>,
     M: Copy + Send + Sync + 'static,
 {
@@ -391,6 +411,19 @@ where
     #[must_use]
     pub fn checks(&self) -> Option<Box<dyn Checks<S, N>>> {
         Some(Box::new(checks::ByRule(self.method)))
+    }
+}
+
+impl<S, M, const N: usize> Probe<S, M, N>
+where
+    S: System<N>,
+    for<'a> S::View<'a>: ClosedForm<M, N> + Discrete<M, N> + ForceWork<M, N>,
+    M: Copy + Send + Sync + 'static,
+{
+    /// The checks that constraints leave.
+    #[must_use]
+    pub fn checks_on_constraints(&self) -> Option<Box<dyn Checks<S, N>>> {
+        Some(Box::new(checks::OnConstraints(self.method)))
     }
 }
 

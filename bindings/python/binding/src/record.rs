@@ -43,6 +43,8 @@ pub struct Record {
     pub by_start: Vec<f64>,
     /// ∂(q, p)/∂θ.
     pub by_parameters: Vec<f64>,
+    /// λ, where it was asked for.
+    pub reactions: Vec<f64>,
     /// Steps taken.
     pub steps: u64,
     /// Iterations of the solver in all.
@@ -150,7 +152,9 @@ impl Record {
 
     fn push<const N: usize>(&mut self, motion: &dyn Motion<N>, plan: &Plan) -> Result<(), Stop> {
         let (v, energy) = motion.measured().map_err(|error| self.failed(motion, plan, error))?;
+        let reactions = motion.reactions().map_err(|error| self.failed(motion, plan, error))?;
         let state = motion.state();
+        self.reactions.extend(reactions);
         self.t.push(plan.origin + motion.time());
         self.q.extend_from_slice(state.q.as_slice());
         self.v.extend_from_slice(v.as_slice());

@@ -28,6 +28,8 @@ pub enum Refusal {
     NotWatched,
     /// The rule has no discrete objects by formulas.
     NotChecked,
+    /// Systems with constraints are not asked that: for which argument or call, and what to do instead.
+    OnConstraints(&'static str),
     /// The samples say nothing.
     Samples(SampleError),
     /// Of this system no error can be asked.

@@ -61,6 +61,9 @@ pub struct Run {
     by_start: Option<Py<PyArray3<f64>>>,
     /// ∂(q, p)/∂θ with (q0, p0) held, shape (records, 2n, parameters); None unless `derivatives=True`.
     by_parameters: Option<Py<PyArray3<f64>>>,
+    /// λ of the constraints over the step that led there, at the start over the first, shape (records,
+    /// constraints): the force is Gᵀλ, G their derivatives by q; None unless `reactions=True`.
+    reactions: Option<Py<PyArray2<f64>>>,
     /// Steps taken.
     steps: u64,
     /// Iterations of the solver, all steps together.
@@ -100,6 +103,13 @@ impl<'py> Arrays<'py> {
     }
 }
 
+/// λ of the records, where it was asked for.
+fn reactions<'py>(py: Python<'py>, record: &mut Record) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
+    let (numbers, records) = (core::mem::take(&mut record.reactions), record.t.len());
+    let columns = numbers.len() / records.max(1);
+    (!numbers.is_empty()).then(|| to_array(py, numbers, [records, columns])).transpose()
+}
+
 impl Run {
     /// The run of a system with `n` coordinates.
     ///
@@ -118,6 +128,7 @@ impl Run {
         };
         let by_start = matrices(core::mem::take(&mut record.by_start), 2 * n)?;
         let by_parameters = matrices(core::mem::take(&mut record.by_parameters), parameters)?;
+        let reactions = reactions(py, &mut record)?.map(Bound::unbind);
         let breach = guarded.as_ref().and_then(|guarded| guarded.breach);
         let breach = breach.map(|BreachOf { time: t, expected, tolerance, instead, .. }| {
             Py::new(py, Breach { t, expected, tolerance, instead })
@@ -131,6 +142,7 @@ impl Run {
             energy: energy.unbind(),
             by_start,
             by_parameters,
+            reactions,
             steps: record.steps,
             iterations: record.iterations,
             h: guarded.as_ref().map_or(h, |guarded| guarded.h),
@@ -158,8 +170,12 @@ impl Run {
 /// # Errors
 /// Those of Python.
 pub fn partial<'py>(py: Python<'py>, record: &mut Record, n: usize) -> PyResult<Bound<'py, PyDict>> {
+    let reactions = reactions(py, record)?;
     let Arrays { t, q, v, p, energy } = Arrays::new(py, record, n)?;
     let partial = PyDict::new(py);
+    if let Some(reactions) = reactions {
+        partial.set_item("reactions", reactions)?;
+    }
     partial.set_item("t", t)?;
     partial.set_item("q", q)?;
     partial.set_item("v", v)?;
@@ -180,6 +196,7 @@ impl Run {
         energy: Py<PyArray1<f64>>,
         by_start: Option<Py<PyArray3<f64>>>,
         by_parameters: Option<Py<PyArray3<f64>>>,
+        reactions: Option<Py<PyArray2<f64>>>,
         steps: u64,
         iterations: u64,
         h: f64,
@@ -196,6 +213,7 @@ impl Run {
             energy,
             by_start,
             by_parameters,
+            reactions,
             steps,
             iterations,
             h,
@@ -207,9 +225,9 @@ impl Run {
     }
 
     fn __reduce__<'py>(this: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        let of_records = ["t", "q", "v", "p", "energy", "by_start", "by_parameters"];
+        let of_records = ["t", "q", "v", "p", "energy", "by_start", "by_parameters", "reactions"];
         let of_run = ["steps", "iterations", "h", "rule", "expected", "breach", "events"];
-        reduced(this, &[of_records, of_run].concat())
+        reduced(this, &[&of_records[..], &of_run].concat())
     }
 
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {

@@ -1,4 +1,4 @@
-//! Systems that misbehave.
+//! Systems that misbehave, and one that a page has no use for.
 
 use dalembert::rayleigh_system;
 use dalembert_python::parameters;
@@ -42,4 +42,33 @@ impl Edited {
     }
 }
 
-dalembert_python::module!(dalembert_trials { Cut, Edited });
+parameters! {
+    /// Two bobs in a plane on massless rods of 1 m and 0.8 m; u in N pushes the second, q are places in m.
+    pub struct Rods {
+        /// Masses, kg.
+        pub m: [f64; 2],
+    }
+}
+
+#[rayleigh_system]
+impl Rods {
+    fn lagrangian(&self, q: [f64; 4], v: [f64; 4]) -> f64 {
+        let mut sum = 0.0;
+        for i in 0..2 {
+            sum += 0.5 * self.m[i] * (v[2 * i] * v[2 * i] + v[2 * i + 1] * v[2 * i + 1]);
+            sum -= self.m[i] * 9.81 * q[2 * i + 1];
+        }
+        sum
+    }
+
+    fn force(&self, _q: [f64; 4], _v: [f64; 4], u: [f64; 2]) -> [f64; 4] {
+        [0.0, 0.0, u[0], u[1]]
+    }
+
+    fn constraints(&self, q: [f64; 4]) -> [f64; 2] {
+        let (x, y) = (q[2] - q[0], q[3] - q[1]);
+        [(q[0] * q[0] + q[1] * q[1]).sqrt() - 1.0, (x * x + y * y).sqrt() - 0.8]
+    }
+}
+
+dalembert_python::module!(dalembert_trials { Cut, Edited, Rods });

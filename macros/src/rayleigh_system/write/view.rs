@@ -144,6 +144,10 @@ pub fn description(system: &System<'_>) -> TokenStream {
     });
     let input = system.input.as_ref().map(|input| input.times(1)).map(|m| quote!(, input u #m));
     let time = system.is_timed().then(|| quote!(, time t));
+    let constraints = system.is_constrained().then(|| {
+        let m = system.constraint_count();
+        quote!(, constraints #m)
+    });
     let parameters = (!system.parameters.is_empty()).then(|| {
         let names = parameter_names(system);
         quote!(, parameters [#(#names),*])
@@ -151,7 +155,7 @@ pub fn description(system: &System<'_>) -> TokenStream {
     // described! { Arm [DrivenArm driven]: f64, 2, input u 1; described_Arm $ }
     quote! {
         #(#conditions)*
-        ::dalembert::generated::described! { #system_name #view: #scalar, #n #input #time #parameters; #words $ }
+        ::dalembert::generated::described! { #system_name #view: #scalar, #n #input #time #constraints #parameters; #words $ }
     }
 }
 
