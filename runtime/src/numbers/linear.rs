@@ -8,10 +8,12 @@ use nalgebra::{SMatrix, SVector};
 use crate::numbers::{Mask, MemberVector, Scalar, Singular};
 
 mod banded;
+mod columns;
 mod dense;
 mod determinant;
 
 pub use banded::Banded;
+pub(crate) use columns::by_columns;
 pub(crate) use determinant::determinant_sign;
 
 mod sealed {
@@ -70,6 +72,11 @@ pub trait NewtonMatrix<S: Scalar, const N: usize>: Copy + core::fmt::Debug + sea
 pub trait Factored<S: Scalar, const N: usize>: Copy + core::fmt::Debug {
     /// The solution x of A x = `right`.
     fn solve(&self, right: &SVector<S, N>) -> SVector<S, N>;
+
+    /// The solution X of A X = `right`: in each column the bits of [`solve`](Self::solve).
+    fn solve_columns<const K: usize>(&self, right: &SMatrix<S, N, K>) -> SMatrix<S, N, K> {
+        by_columns(right, |right| self.solve(right))
+    }
 }
 
 /// The matrices of W members, made ready to solve with.

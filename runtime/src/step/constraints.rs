@@ -22,7 +22,6 @@
 //! as they are, and no second derivative of g is asked for.
 
 mod bordered;
-mod columns;
 mod complement;
 mod equation;
 mod inertia;

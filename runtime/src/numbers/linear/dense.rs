@@ -141,6 +141,45 @@ impl<S: Scalar, const N: usize> Factored<S, N> for FactoredDense<S, N> {
         }
         x
     }
+
+    /// Row by row: K sums side by side, where those of one column wait for each other.
+    #[expect(clippy::needless_range_loop, reason = "rows i and k of one array are used together")]
+    fn solve_columns<const K: usize>(&self, right: &SMatrix<S, N, K>) -> SMatrix<S, N, K> {
+        let mut x = [[S::zero(); K]; N];
+        for i in 0..N {
+            for j in 0..K {
+                if let Some(&entry) = right.data.0[j].get(self.order[i]) {
+                    x[i][j] = entry;
+                }
+            }
+        }
+        for i in 1..N {
+            for k in 0..i {
+                let (factor, known) = (self.rows[i][k], x[k]);
+                for j in 0..K {
+                    x[i][j] -= factor * known[j];
+                }
+            }
+        }
+        for i in (0..N).rev() {
+            for k in i + 1..N {
+                let (factor, known) = (self.rows[i][k], x[k]);
+                for j in 0..K {
+                    x[i][j] -= factor * known[j];
+                }
+            }
+            for j in 0..K {
+                x[i][j] *= self.reciprocals[i];
+            }
+        }
+        let mut solution: SMatrix<S, N, K> = nalgebra::zero();
+        for i in 0..N {
+            for j in 0..K {
+                solution.data.0[j][i] = x[i][j];
+            }
+        }
+        solution
+    }
 }
 
 #[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a NaN pivot must fail the comparison")]
@@ -246,6 +285,17 @@ mod tests {
         let x = vector![1.0, -2.0, 3.0];
         let solution = a.solve(&(a * x)).unwrap();
         assert!((solution - x).amax() < 1e-15);
+    }
+
+    #[test]
+    fn columns_side_by_side_have_the_bits_of_each_alone() {
+        let entry = |i: usize, j: usize| ((7 * i + 3 * j + i * j) as f64).sin();
+        let factored = SMatrix::<f64, 6, 6>::from_fn(entry).factored().unwrap();
+        let right = SMatrix::<f64, 6, 4>::from_fn(|i, j| entry(j, i + 1));
+        let together = factored.solve_columns(&right);
+        for j in 0..4 {
+            assert_eq!(together.column(j), factored.solve(&right.column(j).into_owned()));
+        }
     }
 
     #[test]

@@ -2,7 +2,6 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::columns::by_columns;
 use super::complement::Complement;
 use super::rows::{Rows, is_left};
 use crate::numbers::{Factored, Scalar};
@@ -32,7 +31,7 @@ impl<S: Scalar, const N: usize, const M: usize> Bordered<S, N, M> {
         L: Constrained<N, M, Scalar = S>,
     {
         let rows = Rows::on(system, segment);
-        let answers = by_columns(&directions, |direction| factored.solve(direction));
+        let answers = factored.solve_columns(&directions);
         let complement = Complement::of(&(rows.gradients * answers))?;
         Some(Self { directions, rows, complement })
     }

@@ -8,7 +8,8 @@ use crate::numbers::{Factored, NewtonMatrix, Scalar, nonlinear::largest};
 ///
 /// Where constraints are redundant, S is singular and the equations are consistent all the same: then
 /// S + ε is factored, and solutions are refined with S, which leads to the one of least norm. Constraints are
-/// scaled by their own entries for that, so that neither their units nor the masses matter.
+/// scaled by their own entries for that, so that neither their units nor the masses matter: the norm is that
+/// of λₖ √|Sₖₖ|.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Complement<S: Scalar, const M: usize> {
     factored: <SMatrix<S, M, M> as NewtonMatrix<S, M>>::Factored,

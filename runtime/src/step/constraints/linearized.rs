@@ -15,11 +15,10 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::Constraints;
-use super::columns::by_columns;
 use super::complement::Complement;
 use super::nearest::{AtPoint, dependence, tangent};
 use super::rows::Rows;
-use crate::numbers::Scalar;
+use crate::numbers::{Scalar, linear::by_columns};
 use crate::step::{
     BorderParameters, ClosedForm, Discrete, LegendreDerivatives, MomentaBy, PhaseMatrix, Segment, State,
     StateBy, StepError, invert,

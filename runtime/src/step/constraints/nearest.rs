@@ -2,10 +2,10 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::columns::by_columns;
 use super::complement::Complement;
 use super::inertia::Inertia;
 use super::rows::with_last;
+use crate::numbers::linear::by_columns;
 use crate::numbers::{Scalar, linear};
 use crate::step::newton::{estimated_floor, held_against};
 use crate::step::{State, StepError};

@@ -20,7 +20,8 @@ where
     /// is in N or N m where gₖ is a length or an angle.
     ///
     /// λ is that of the half step behind q0: the reaction at q0, to first order in h. Of redundant
-    /// constraints it is the one of least norm.
+    /// constraints it is the one of least Σ Sₖₖλₖ², with S = G(q1) W⁻¹ G(q0)ᵀ and W = ∂p0/∂v̄: by that norm
+    /// the unit of a constraint changes none of the forces that it and others share.
     ///
     /// ```
     /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};

@@ -6,7 +6,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::numbers::Scalar;
 
 /// The matrix whose columns are those that `of` makes of the columns of `matrix`.
-pub(super) fn by_columns<S: Scalar, const R: usize, const C: usize, const K: usize>(
+pub(crate) fn by_columns<S: Scalar, const R: usize, const C: usize, const K: usize>(
     matrix: &SMatrix<S, R, C>,
     of: impl Fn(&SVector<S, R>) -> SVector<S, K>,
 ) -> SMatrix<S, K, C> {
