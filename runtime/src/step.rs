@@ -41,7 +41,8 @@ mod velocity_history;
 
 pub use crate::numbers::{Banded, NewtonMatrix, Singular};
 pub use crate::system::Quantity;
-pub use border::{Border, BorderParameters};
+pub use border::Border;
+pub(crate) use border::BorderParameters;
 pub use closed_form::ClosedForm;
 pub(crate) use closed_form::{ByFormula, Formulas};
 pub use constraints::Constraints;

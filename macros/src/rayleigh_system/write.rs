@@ -36,7 +36,7 @@ pub struct EngineFunctions {
     pub time_scale: Option<TokenStream>,
     /// The derivatives of the constraints, and whether these move by themselves.
     pub constraints: Option<(TokenStream, bool)>,
-    /// Those by the parameters.
+    /// Derivatives of the constraints by the parameters.
     pub constraints_by_parameters: Option<TokenStream>,
     /// The derivative of f by the input.
     pub by_input: Option<TokenStream>,

@@ -43,8 +43,8 @@ pub trait Border<L: Lagrangian<N> + ?Sized, R, const N: usize> {
         iterations: u32,
     ) -> Result<BoundedStep<L::Scalar, N>, StepError>;
 
-    /// The border on the segment of a guess for the step, with the Newton matrix of an earlier one, `factored`;
-    /// nothing where the general way has to say why.
+    /// The border on the segment of a guess for the step, with the Newton matrix of an earlier one,
+    /// `factored`; nothing where the general way has to say why.
     fn underway(
         system: &L,
         guess: &Segment<L::Scalar, N>,
@@ -62,8 +62,13 @@ pub trait Border<L: Lagrangian<N> + ?Sized, R, const N: usize> {
         momenta: &mut Momenta<L::Scalar, N>,
     ) -> SVector<L::Scalar, N>;
 
-    /// The step that was solved for, complete; nothing where the general way has to say why.
-    fn completed(system: &L, step: Step<L::Scalar, N>, h: L::Scalar) -> Option<Step<L::Scalar, N>>;
+    /// The step on the segment that was solved for, complete; nothing where the general way has to say why.
+    fn completed(
+        underway: &Self::Underway,
+        system: &L,
+        segment: &Segment<L::Scalar, N>,
+        step: Step<L::Scalar, N>,
+    ) -> Option<Step<L::Scalar, N>>;
 
     /// The state that the border allows and that is nearest; nothing where there is none in reach.
     fn nearest(system: &L, state: &State<L::Scalar, N>) -> Option<State<L::Scalar, N>>;
@@ -73,7 +78,6 @@ pub trait Border<L: Lagrangian<N> + ?Sized, R, const N: usize> {
     ///
     /// # Errors
     /// [`StepError::SingularNewtonMatrix`] where the step has no derivative, [`StepError::NonFinite`].
-    #[expect(clippy::type_complexity, reason = "a matrix, and what the border knows")]
     fn linearized(
         system: &L,
         segment: &Segment<L::Scalar, N>,

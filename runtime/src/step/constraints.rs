@@ -42,7 +42,6 @@ pub use bordered::Bordered;
 use equation::OnConstraints;
 pub use linearized::Linearized;
 use nearest::{require_on, tangent};
-use rows::Rows;
 
 /// M constraints, [`Constrained`]: the border of a step on N = g⁻¹(0), along the constraints of velocity.
 #[derive(Clone, Copy, Debug)]
@@ -103,12 +102,16 @@ where
         residual
     }
 
-    fn completed(system: &L, step: Step<L::Scalar, N>, h: L::Scalar) -> Option<Step<L::Scalar, N>> {
-        let segment = Segment { q0: step.state.q - step.velocity * h, v: step.velocity, h };
-        if Rows::on(system, &segment).is_off() {
+    fn completed(
+        underway: &Self::Underway,
+        system: &L,
+        segment: &Segment<L::Scalar, N>,
+        step: Step<L::Scalar, N>,
+    ) -> Option<Step<L::Scalar, N>> {
+        if underway.is_off(system, segment) {
             return None;
         }
-        let state = system.later(h, |system| tangent::<L, N, M>(system, &step.state)).ok()?;
+        let state = system.later(segment.h, |system| tangent::<L, N, M>(system, &step.state)).ok()?;
         state.require_reached().ok()?;
         Some(Step { state, ..step })
     }

@@ -59,7 +59,12 @@ where
     }
 
     #[inline]
-    fn completed(_: &L, step: Step<L::Scalar, N>, _: L::Scalar) -> Option<Step<L::Scalar, N>> {
+    fn completed(
+        (): &(),
+        _: &L,
+        _: &Segment<L::Scalar, N>,
+        step: Step<L::Scalar, N>,
+    ) -> Option<Step<L::Scalar, N>> {
         Some(step)
     }
 

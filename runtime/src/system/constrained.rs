@@ -20,7 +20,7 @@ pub trait Constrained<const N: usize, const M: usize>: Lagrangian<N> {
     /// The number of constraints of velocity: the last ones.
     const OF_VELOCITY: usize = 0;
 
-    /// Whether a system at rest may leave a constraint: where one depends on time, or is not homogeneous in v.
+    /// Whether a system at rest may leave a constraint: one that depends on time, or is not homogeneous in v.
     const IS_PRESCRIBED: bool = false;
 
     /// g(q); 0 for a constraint of velocity.

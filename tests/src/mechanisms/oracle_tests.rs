@@ -43,7 +43,7 @@ fn a_row_of_rods_steps_as_its_angles_do() {
     let h = 0.04;
     // On the circle to 32 digits, not to 16: the two are compared as they are.
     let rates = [0.7, -0.4, 1.1].map(DoubleDouble::new);
-    let mut v = vec![DoubleDouble::ZERO; 6];
+    let mut v = [DoubleDouble::ZERO; 6];
     for (j, (turn, rate)) in turns.iter().zip(rates).enumerate() {
         (j..3).for_each(|i| (0..2).for_each(|a| v[2 * i + a] = v[2 * i + a] + turn[a] * rate));
     }

@@ -1,7 +1,7 @@
 //! Constraints: gradients, rates and curvature.
 //!
-//! Rows are the constraints gₖ(q, t) = 0, then the velocity constraints ψₖ(q, v, t) = 0. Each row has a rate ρₖ,
-//! which is gₖ differentiated by time, or ψₖ; G = ∂ρ/∂v is ∂g/∂q in rows of the first kind.
+//! Rows are the constraints gₖ(q, t) = 0, then the velocity constraints ψₖ(q, v, t) = 0. Each row has a rate
+//! ρₖ, which is gₖ differentiated by time, or ψₖ; G = ∂ρ/∂v is ∂g/∂q in rows of the first kind.
 
 use super::*;
 

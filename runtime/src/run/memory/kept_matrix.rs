@@ -236,7 +236,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
                 let last_correction = correction.amax();
                 let report = Report { iterations, damped: 0, residual, floor, last_correction };
                 let step = Step::completed(state, self.h, segment.v, &momenta, report).ok()?;
-                return <L::Border as Border<L, R, N>>::completed(system, step, self.h);
+                return <L::Border as Border<L, R, N>>::completed(&underway, system, &segment, step);
             }
             if !(size <= last_size * S::constant(CONTRACTION)) {
                 return if iterations > 0 && !L::IS_CONSTRAINED {

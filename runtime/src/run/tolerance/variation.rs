@@ -41,8 +41,8 @@ pub(super) struct Variation<S: Scalar, const N: usize> {
 /// The root of a share of J that is no more than rounding.
 const SLIGHTEST: f64 = 1e-4;
 
-/// Angles by which the fastest mode turns in the steps that tell of the motion on constraints: as they are made,
-/// and at most; and how often they are made shorter.
+/// Angles by which the fastest mode turns in the steps that tell of the motion on constraints: as they are
+/// made, and at most; and how often they are made shorter.
 const SHORT: f64 = 1e-4;
 const LONGEST: f64 = 1e-3;
 const ATTEMPTS: u32 = 6;
@@ -65,8 +65,8 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
         if L::IS_CONSTRAINED { free.on_constraints((system, methods)) } else { Some(free) }
     }
 
-    /// On constraints, by two steps of the rule, forwards and backwards: their ends y(±τ) and derivatives A(±τ)
-    /// hold the reactions, ẏ = (y(τ) − y(−τ))/2τ and J = (A(τ) − A(−τ))/2τ up to (τJ)².
+    /// On constraints, by two steps of the rule, forwards and backwards: their ends y(±τ) and derivatives
+    /// A(±τ) hold the reactions, ẏ = (y(τ) − y(−τ))/2τ and J = (A(τ) − A(−τ))/2τ up to (τJ)².
     fn on_constraints<L, M>(self, (system, methods): (&L, M)) -> Option<Self>
     where
         L: ActingForce<N, Scalar = S>,

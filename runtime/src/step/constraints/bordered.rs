@@ -10,8 +10,8 @@ use crate::system::{Constrained, sizes};
 
 /// G(q0)ᵀ, M constraints on a segment and the Schur complement S, with a Newton matrix W.
 ///
-/// F = r − G(q0)ᵀκ, κ = S⁻¹(∂c/∂v̄ W⁻¹r − c), has the same root with W and the constraints of another segment:
-/// S goes with them.
+/// F = r − G(q0)ᵀκ, κ = S⁻¹(∂c/∂v̄ W⁻¹r − c), has the same root with W and the constraints of another
+/// segment: S goes with them.
 #[derive(Clone, Copy, Debug)]
 pub struct Bordered<S: Scalar, const N: usize, const M: usize> {
     directions: SMatrix<S, N, M>,

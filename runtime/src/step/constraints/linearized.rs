@@ -54,7 +54,7 @@ struct Held<S: Scalar, const N: usize, const M: usize> {
     mu: SVector<S, M>,
 }
 
-/// What moves a step beside its state, by K quantities.
+/// K quantities that move a step beside its state: how they move momenta and constraints.
 struct Moved<S, const N: usize, const M: usize, const K: usize> {
     momenta: MomentaBy<S, N, K>,
     /// c, and ρ less what v moves it by, at the end.
