@@ -15,6 +15,7 @@ mod kept;
 mod kept_matrix;
 mod lanes;
 mod midpoint_lanes;
+mod on_constraints;
 mod one_run;
 mod period;
 mod random_events;

@@ -1,0 +1,104 @@
+//! Runs on constraints: an error asked for, events, states between steps; each beside a motion in minimal
+//! coordinates.
+
+use dalembert::{Composition, Discretise, Gauss, Midpoint, State, StepError, rayleigh_system};
+
+/// A load of 1.5 on a rope whose length changes with time, with drag.
+struct Hoist;
+
+#[rayleigh_system]
+impl Hoist {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        0.75 * (v[0] * v[0] + v[1] * v[1]) - 1.5 * 9.81 * q[1]
+    }
+
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.15 * (v[0] * v[0] + v[1] * v[1])
+    }
+
+    fn constraints(&self, q: [f64; 2], t: f64) -> [f64; 1] {
+        let length = 2.0 - 0.5 * (0.7 * t).sin();
+        [q[0] * q[0] + q[1] * q[1] - length * length]
+    }
+}
+
+/// The load by its angle.
+struct ByAngle;
+
+#[rayleigh_system(rule = gauss)]
+impl ByAngle {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+        let (length, rate) = (2.0 - 0.5 * (0.7 * t).sin(), -0.35 * (0.7 * t).cos());
+        0.75 * (rate * rate + length * length * v[0] * v[0]) + 1.5 * 9.81 * length * q[0].cos()
+    }
+
+    fn rayleigh(&self, v: [f64; 1], t: f64) -> f64 {
+        let length = 2.0 - 0.5 * (0.7 * t).sin();
+        0.15 * length * length * v[0] * v[0]
+    }
+}
+
+fn length(t: f64) -> f64 {
+    2.0 - 0.5 * (0.7 * t).sin()
+}
+
+/// At rest beside the rope, at an angle of .8.
+fn start() -> Result<State<f64, 2>, StepError> {
+    let (s, c) = 0.8_f64.sin_cos();
+    State::from_velocity(&Hoist.at_time(0.0), [2.0 * s, -2.0 * c], [-0.35 * s, 0.35 * c])
+}
+
+fn angle(q: &dalembert::nalgebra::Vector2<f64>) -> f64 {
+    f64::atan2(q[0], -q[1])
+}
+
+/// The angle at a time, to 1e-13.
+fn exact(time: f64) -> Result<f64, StepError> {
+    let view = ByAngle.at_time(0.0);
+    let steps = (time / 0.1).ceil() as usize;
+    let start = State::from_velocity(&view, [0.8], [0.0])?;
+    Ok(view.by(Gauss::<8>, time / steps as f64).run(start).nth(steps - 1).unwrap()?.state.q[0])
+}
+
+#[test]
+fn an_error_asked_for_is_kept_on_constraints() -> Result<(), StepError> {
+    let (system, start, time) = (Hoist, start()?, 6.0);
+    let view = system.at_time(0.0);
+    let mut most = 0.0_f64;
+    for tolerance in [1e-3, 1e-5, 1e-7, 1e-9] {
+        let reached = view.to_error(tolerance).until(time).end(&start).unwrap();
+        // The error of q itself: the rope is as long as it should be.
+        let error = (angle(&reached.state.q) - exact(time)?).abs() * length(time);
+        assert!(error <= tolerance && reached.expected <= tolerance, "{tolerance:e}: {error:e}");
+        assert!((reached.state.q.norm() - length(time)).abs() < 1e-14);
+        most = most.max(error / tolerance);
+    }
+    // Positive control: runs err by about what is asked for, not by much less.
+    assert!(most > 1e-3, "{most:e}");
+    Ok(())
+}
+
+#[test]
+fn events_and_states_between_steps_are_on_the_constraints() -> Result<(), StepError> {
+    let (system, start) = (Hoist, start()?);
+    let view = system.at_time(0.0);
+    let mut run = view.by(Composition::kahan_li_8(Midpoint), 0.05).run(start);
+    let mut passed = 0;
+    for event in run.watch(|at| [at.q[0]]).until(8.0) {
+        let event = event.unwrap();
+        assert!(exact(event.time)?.abs() < 1e-11, "{} {:e}", event.time, exact(event.time)?);
+        passed += 1;
+    }
+    assert!(passed > 4, "{passed}");
+    // A step of another size leads to a state between, on the rope as it is then.
+    let mut run = view.by(Composition::kahan_li_8(Midpoint), 0.05).run(start);
+    let mut dense = run.dense();
+    for _ in 0..12 {
+        dense.next().unwrap()?;
+        let [_, to] = dense.interval().unwrap();
+        let (time, between) = (to - 0.017, dense.state_at(to - 0.017).unwrap());
+        assert!((between.q.norm() - length(time)).abs() < 1e-14, "{time}");
+        assert!((angle(&between.q) - exact(time)?).abs() < 1e-11, "{time}");
+    }
+    Ok(())
+}
