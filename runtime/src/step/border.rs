@@ -62,13 +62,18 @@ pub trait Border<L: Lagrangian<N> + ?Sized, R, const N: usize> {
         momenta: &mut Momenta<L::Scalar, N>,
     ) -> SVector<L::Scalar, N>;
 
-    /// The step on the segment that was solved for, complete; nothing where the general way has to say why.
-    fn completed(
-        underway: &Self::Underway,
-        system: &L,
-        segment: &Segment<L::Scalar, N>,
-        step: Step<L::Scalar, N>,
-    ) -> Option<Step<L::Scalar, N>>;
+    /// The floor of a residual with what reactions add to it, where p0 is `without` and `with` them.
+    fn floor(
+        floor: SVector<L::Scalar, N>,
+        without: &SVector<L::Scalar, N>,
+        with: &SVector<L::Scalar, N>,
+    ) -> SVector<L::Scalar, N>;
+
+    /// Whether the border is off on a segment by more than rounding, which the residual may not show.
+    fn is_off(underway: &Self::Underway, system: &L, segment: &Segment<L::Scalar, N>) -> bool;
+
+    /// The step that was solved for, complete; nothing where the general way has to say why.
+    fn completed(system: &L, step: Step<L::Scalar, N>, h: L::Scalar) -> Option<Step<L::Scalar, N>>;
 
     /// The state that the border allows and that is nearest; nothing where there is none in reach.
     fn nearest(system: &L, state: &State<L::Scalar, N>) -> Option<State<L::Scalar, N>>;

@@ -39,6 +39,7 @@ use crate::step::{
 };
 use crate::system::Constrained;
 pub use bordered::Bordered;
+use bordered::rounding_of_reactions;
 use equation::OnConstraints;
 pub use linearized::Linearized;
 use nearest::{require_on, tangent};
@@ -102,16 +103,20 @@ where
         residual
     }
 
-    fn completed(
-        underway: &Self::Underway,
-        system: &L,
-        segment: &Segment<L::Scalar, N>,
-        step: Step<L::Scalar, N>,
-    ) -> Option<Step<L::Scalar, N>> {
-        if underway.is_off(system, segment) {
-            return None;
-        }
-        let state = system.later(segment.h, |system| tangent::<L, N, M>(system, &step.state)).ok()?;
+    fn floor(
+        floor: SVector<L::Scalar, N>,
+        without: &SVector<L::Scalar, N>,
+        with: &SVector<L::Scalar, N>,
+    ) -> SVector<L::Scalar, N> {
+        floor + rounding_of_reactions(without, with)
+    }
+
+    fn is_off(underway: &Self::Underway, system: &L, segment: &Segment<L::Scalar, N>) -> bool {
+        underway.is_off(system, segment)
+    }
+
+    fn completed(system: &L, step: Step<L::Scalar, N>, h: L::Scalar) -> Option<Step<L::Scalar, N>> {
+        let state = system.later(h, |system| tangent::<L, N, M>(system, &step.state)).ok()?;
         state.require_reached().ok()?;
         Some(Step { state, ..step })
     }

@@ -46,6 +46,12 @@ pub(crate) trait StepEquation<S: Scalar, const N: usize> {
         nalgebra::zero()
     }
 
+    /// The floor of a residual with what is added to that of the terms of p0.
+    #[inline]
+    fn floor(&self, floor: SVector<S, N>) -> SVector<S, N> {
+        floor
+    }
+
     /// From here on values are compared with one another: kernel and momenta have to be functions of the
     /// segment alone.
     fn compare(&self) {}

@@ -59,12 +59,21 @@ where
     }
 
     #[inline]
-    fn completed(
-        (): &(),
-        _: &L,
-        _: &Segment<L::Scalar, N>,
-        step: Step<L::Scalar, N>,
-    ) -> Option<Step<L::Scalar, N>> {
+    fn floor(
+        floor: SVector<L::Scalar, N>,
+        _: &SVector<L::Scalar, N>,
+        _: &SVector<L::Scalar, N>,
+    ) -> SVector<L::Scalar, N> {
+        floor
+    }
+
+    #[inline]
+    fn is_off((): &(), _: &L, _: &Segment<L::Scalar, N>) -> bool {
+        false
+    }
+
+    #[inline]
+    fn completed(_: &L, step: Step<L::Scalar, N>, _: L::Scalar) -> Option<Step<L::Scalar, N>> {
         Some(step)
     }
 

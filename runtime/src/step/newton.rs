@@ -138,7 +138,8 @@ pub(crate) fn quick<S: Scalar, const N: usize>(
         let close = if kind == Equation::Linear {
             true
         } else if iterations == 0 {
-            weights = estimated_floor(p, &kernel.matrix, &next).map(|floor| S::one() / floor);
+            let floor = equation.floor(estimated_floor(p, &kernel.matrix, &next));
+            weights = floor.map(|floor| S::one() / floor);
             last_size = weighted(&residual, &weights);
             last_size <= S::one()
         } else {
@@ -157,7 +158,7 @@ pub(crate) fn quick<S: Scalar, const N: usize>(
         if close {
             let momenta = equation.momenta(&segment);
             let left = momenta.p0 - p;
-            let floor = estimated_floor(p, &kernel.matrix, &segment.v);
+            let floor = equation.floor(estimated_floor(p, &kernel.matrix, &segment.v));
             let (residual, floor, is_root) = held_against(&left, &floor);
             if is_root && (is_small_beside(&left, p) || is_known_at(kind, &segment.v, &correction)) {
                 let iterations = iterations + 1;

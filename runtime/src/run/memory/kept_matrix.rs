@@ -210,14 +210,15 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         let p = &state.p;
         let first = Segment { q0: state.q, v: guess, h: self.h };
         let underway = <L::Border as Border<L, R, N>>::underway(system, &first, &self.factored)?;
-        let floor = estimated_floor(p, &self.matrix, &guess);
-        let weights = floor.map(|floor| S::one() / floor);
+        let mut floor = estimated_floor(p, &self.matrix, &guess);
+        let mut weights: SVector<S, N> = nalgebra::zero();
         let mut segment = first;
         let mut correction: SVector<S, N> = nalgebra::zero();
         let mut last_size = S::constant(CLOSE) / (S::EPSILON * S::constant(CONTRACTION));
         // At least one correction: extrapolation alone, step after step, would let rounding grow.
         for iterations in 0..=MOST {
             let mut momenta = system.momenta(&segment);
+            let without = momenta.p0;
             let residual = <L::Border as Border<L, R, N>>::residual(
                 &underway,
                 system,
@@ -226,8 +227,13 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
                 p,
                 &mut momenta,
             );
+            if iterations == 0 {
+                floor = <L::Border as Border<L, R, N>>::floor(floor, &without, &momenta.p0);
+                weights = floor.map(|floor| S::one() / floor);
+            }
             let size = weighted(&residual, &weights);
-            if iterations > 0 && size <= S::constant(AT_FLOOR) {
+            let is_solved = iterations > 0 && size <= S::constant(AT_FLOOR);
+            if is_solved && !<L::Border as Border<L, R, N>>::is_off(&underway, system, &segment) {
                 let (residual, floor) = if is_small_beside(&residual, p) {
                     held_by_weights(&residual, &floor, &weights, size)
                 } else {
@@ -236,9 +242,9 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
                 let last_correction = correction.amax();
                 let report = Report { iterations, damped: 0, residual, floor, last_correction };
                 let step = Step::completed(state, self.h, segment.v, &momenta, report).ok()?;
-                return <L::Border as Border<L, R, N>>::completed(&underway, system, &segment, step);
+                return <L::Border as Border<L, R, N>>::completed(system, step, self.h);
             }
-            if !(size <= last_size * S::constant(CONTRACTION)) {
+            if !is_solved && !(size <= last_size * S::constant(CONTRACTION)) {
                 return if iterations > 0 && !L::IS_CONSTRAINED {
                     self.held_up(system, state, segment.v, momenta, (iterations, correction))
                 } else {

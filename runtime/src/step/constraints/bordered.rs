@@ -8,6 +8,15 @@ use crate::numbers::{Factored, Scalar};
 use crate::step::Segment;
 use crate::system::{Constrained, sizes};
 
+/// The rounding of the reactions that lead from p0 `without` to p0 `with` them: where a system hangs at rest
+/// they cancel forces of which nothing is left in p.
+pub(super) fn rounding_of_reactions<S: Scalar, const N: usize>(
+    without: &SVector<S, N>,
+    with: &SVector<S, N>,
+) -> SVector<S, N> {
+    (without - with).abs() * (S::EPSILON * S::constant(4.0))
+}
+
 /// G(q0)ᵀ, M constraints on a segment and the Schur complement S, with a Newton matrix W.
 ///
 /// F = r − G(q0)ᵀκ, κ = S⁻¹(∂c/∂v̄ W⁻¹r − c), has the same root with W and the constraints of another
@@ -75,7 +84,7 @@ impl<S: Scalar, const N: usize, const M: usize> Bordered<S, N, M> {
         self.rows.is_off().then(|| factored.solve(&(self.directions * self.complement.solve(values))))
     }
 
-    /// F on another segment.
+    /// F on another segment, with κ refined once.
     pub(super) fn residual_near<L>(
         &self,
         system: &L,
@@ -87,7 +96,10 @@ impl<S: Scalar, const N: usize, const M: usize> Bordered<S, N, M> {
         L: Constrained<N, M, Scalar = S>,
     {
         let values = self.rows.values(system, segment);
-        let off = self.rows.gradients * factored.solve(&left) - values;
-        left - self.directions * self.complement.solve(&off)
+        let residual = |left: SVector<S, N>| {
+            let off = self.rows.gradients * factored.solve(&left) - values;
+            left - self.directions * self.complement.solve(&off)
+        };
+        residual(residual(left))
     }
 }

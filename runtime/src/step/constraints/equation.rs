@@ -4,7 +4,7 @@ use core::cell::{Cell, RefCell};
 
 use nalgebra::{SMatrix, SVector};
 
-use super::bordered::Bordered;
+use super::bordered::{Bordered, rounding_of_reactions};
 use super::nearest::{dependence, dependent, require_on, tangent};
 use crate::numbers::{Factored, NewtonMatrix};
 use crate::step::equation::{OfRule, StepEquation};
@@ -26,6 +26,8 @@ where
     directions: SMatrix<L::Scalar, N, M>,
     /// Whether momenta take W and S of the last kernel: of the quick method, to which the equation is all.
     is_frozen: Cell<bool>,
+    /// The rounding of the reactions at the v̄ at which the kernel was asked for last.
+    rounding: Cell<SVector<L::Scalar, N>>,
     /// At the v̄ at which the kernel was asked for last.
     last: RefCell<Option<Solved<L, R, N, M>>>,
 }
@@ -46,7 +48,8 @@ where
         let (values, gradients) = system.constraint_gradients(&state.q);
         require_on(&values, &gradients, &state.q)?;
         let (free, directions, last) = (OfRule::new(system), gradients.transpose(), RefCell::new(None));
-        Ok(Self { system, free, state, directions, is_frozen: Cell::new(true), last })
+        let (is_frozen, rounding) = (Cell::new(true), Cell::new(nalgebra::zero()));
+        Ok(Self { system, free, state, directions, is_frozen, rounding, last })
     }
 
     /// p0 and W on the segment without the constraints; and W made ready with its border, where no matrix is
@@ -177,7 +180,9 @@ where
                 let (p, left) = (self.state.p, p0 - self.state.p);
                 let is_frozen = self.is_frozen.get();
                 let residual = if is_frozen { Bordered::residual } else { Bordered::refined };
-                StepKernel { p0: p + residual(bordered, factored, &left), matrix }
+                let with = p + residual(bordered, factored, &left);
+                self.rounding.set(rounding_of_reactions(&p0, &with));
+                StepKernel { p0: with, matrix }
             }
             // Singular itself, or the complement is: what is solved with it says so.
             None if matrix.factored().is_none() => StepKernel { p0, matrix },
@@ -187,6 +192,10 @@ where
             *last = solved;
         }
         kernel
+    }
+
+    fn floor(&self, floor: SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
+        floor + self.rounding.get()
     }
 
     fn compare(&self) {
