@@ -127,8 +127,8 @@ fn a_ninth_constraint_changes_multipliers_alone() {
         weighted = weighted.max((s.component_mul(&n).dot(&lambda) / s.component_mul(&lambda).norm()).abs());
         plain = plain.max((n.dot(&lambda) / lambda.norm()).abs());
     }
-    // S + ε stands in for S, with ε = 16u^⅔, u the rounding unit: a rounding beside it is u^⅓/16 = 4e-7, and a
-    // sum of nine terms, refined, has some ten.
+    // S + ε stands in for S, with ε = 16u^⅔, u the rounding unit: a rounding beside it is u^⅓/16 = 4e-7, and
+    // a sum of nine terms, refined, has some ten.
     assert!(weighted < 1e-5, "{weighted:e}");
     // Positive control: not of least Σ λₖ².
     assert!(plain > 0.1, "{plain}");
