@@ -1,6 +1,8 @@
 //! Many trajectories: ensembles in lanes beside heyoka's batch of eight, all lanes' errors; threads; the
 //! growth with the number of members; what writing them costs.
 
+mod row;
+
 use std::collections::HashMap;
 use std::fmt::Write;
 use std::path::Path;
@@ -21,6 +23,7 @@ use crate::measure::{Candidate, interleaved, timed};
 use crate::peers::python::Python;
 use crate::reference;
 use crate::scenes::Scene;
+use row::Row;
 
 /// Errors to be reached.
 const LEVELS: [f64; 4] = [1e-6, 1e-8, 1e-10, 1e-12];
@@ -45,7 +48,7 @@ const BATCH: &str = crate::measured::BATCH;
 /// Whether this program is built for the machine that it runs on.
 const IS_NATIVE: bool = cfg!(target_feature = "avx");
 
-/// Measures and writes `docs/ensembles.md`, or in a native build `docs/ensembles-native.md`.
+/// Measures and writes `docs/ensembles.md`, or in a native build the last columns of its table.
 ///
 /// # Errors
 /// heyoka is missing, a reference is not what it should be, or the page cannot be written.
@@ -57,25 +60,13 @@ pub fn write(docs: &Path) -> Result<()> {
     );
     // This thread, whose time is measured: a thread can be of one pool alone, so there is one for all scenes.
     let pool = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build()?;
-    let (name, written) = if IS_NATIVE {
-        (
-            "ensembles-native.md",
-            "`RUSTFLAGS=\"-C target-cpu=native\" cargo run --release -p dalembert-report -- ensembles`: built for the machine, where \
-             sums over\nstages, sines by the addition theorem and reciprocals are of fused multiply-adds; a build for any x86-64 \
-             has\n[a page of its own](ensembles.md)",
-        )
-    } else {
-        (
-            "ensembles.md",
-            "`cargo run --release -p dalembert-report -- ensembles`: built for any x86-64, the instructions chosen when the \
-             program runs; a native\nbuild has [a page of its own](ensembles-native.md)",
-        )
-    };
-    let mut page = include_str!("../ensembles.md").replace("{written}", written);
+    let path = docs.join("ensembles.md");
+    let before = fs::read_to_string(&path)?;
+    let mut rows_found = Vec::new();
     macro_rules! scenes {
         ($($name:literal: $scene:expr, $n:literal, [$($method:literal: $by:expr),*];)*) => {$(
             eprintln!("{}", $name);
-            rows::<_, $n, { 2 * $n }>($name, $scene, (&python, &pool), &mut page, |runs| {
+            rows::<_, $n, { 2 * $n }>($name, $scene, (&python, &pool), &mut rows_found, |runs| {
                 [$($by.candidates($method, runs)),*].into_iter().flatten().collect()
             })?;
         )*};
@@ -102,12 +93,16 @@ pub fn write(docs: &Path) -> Result<()> {
             "Blanes–Moan 4": Splitting::blanes_moan_4(), "Blanes–Moan 6": six, "Blanes–Casas–Escorihuela 8": eight
         ];
     }
-    if !IS_NATIVE {
-        page.push_str(include_str!("../ensembles_growth.md"));
-        growth(&mut page)?;
+    if IS_NATIVE {
+        let page = rows_found.iter().try_fold(before, |page, row| row.into_page(&page))?;
+        return results::save(&path, &page);
     }
+    let mut page = include_str!("../ensembles.md").to_owned();
+    rows_found.iter().for_each(|row| page.push_str(&row.line(&before)));
+    page.push_str(include_str!("../ensembles_growth.md"));
+    growth(&mut page)?;
     write!(page, "\n{}", crate::page::setting(Some(&python)))?;
-    results::save(&docs.join(name), &page)
+    results::save(&path, &page)
 }
 
 /// Sets of eight ends.
@@ -118,7 +113,7 @@ fn rows<S, const N: usize, const M: usize>(
     name: &str,
     scene: S,
     (python, pool): (&Python, &ThreadPool),
-    page: &mut String,
+    found: &mut Vec<Row>,
     methods: impl for<'a> Fn(&Runs<'a, S, N>) -> Vec<Goal<'a, N>>,
 ) -> Result<()>
 where
@@ -166,14 +161,15 @@ where
         };
         let (own, batch) = (cheapest(true), cheapest(false));
         let cell = |of: Option<&crate::measure::Measured<Ends<N>>>| match of {
-            Some(of) => format!("{} {:.3} | {:.1e}", of.method, of.least * 1e6, worst(&of.end)),
-            None => "not reached | ".to_owned(),
+            Some(of) => [format!("{} {:.3}", of.method, of.least * 1e6), format!("{:.1e}", worst(&of.end))],
+            None => ["not reached".to_owned(), String::new()],
         };
         let ratio = match (own, batch) {
             (Some(own), Some(batch)) => format!("{:.2}", own.least / batch.least),
             _ => String::new(),
         };
-        writeln!(page, "| {name} | {level:.0e} | {} | {} | {ratio} |", cell(own), cell(batch))?;
+        let key = format!("| {name} | {level:.0e} |");
+        found.push(Row { key, ours: cell(own), batch: cell(batch), ratio });
     }
     Ok(())
 }
