@@ -56,8 +56,11 @@ fn a_unit_steps_as_rust_does_and_has_reactions() -> Result<(), StepError> {
     assert_eq!(unit.double(MOTION), Ok(expected[10]));
     assert_eq!(unit.through_bytes(), Ok(bytes));
     unit.step(0.11, 0.01).unwrap();
-    for (found, expected) in unit.double(MOTION).unwrap().into_iter().zip(expected[11]) {
-        assert!((found - expected).abs() < 1e-12);
+    // Without what the run kept. Some roundings of q, of size 0.7, are 1e-13 of the velocity at h = 0.01, and
+    // 2m/h times as much of λ.
+    let bounds = [1e-15, 1e-15, 1e-15, 2e-13, 2e-13, 2e-13, 4e-11];
+    for ((found, expected), bound) in unit.double(MOTION).unwrap().into_iter().zip(expected[11]).zip(bounds) {
+        assert!((found - expected).abs() < bound, "{found} {expected}");
     }
     Ok(())
 }

@@ -6,7 +6,8 @@ use nalgebra::{SMatrix, SVector};
 
 use super::bordered::{Bordered, rounding_of_reactions};
 use super::nearest::{dependence, dependent, require_on, tangent};
-use crate::numbers::{Factored, NewtonMatrix};
+use super::rows::Rows;
+use crate::numbers::{Factored, NewtonMatrix, Scalar};
 use crate::step::equation::{OfRule, StepEquation};
 use crate::step::{ClosedForm, Discrete, Fused, Momenta, Segment, State, Step, StepError, StepKernel};
 use crate::system::{Constrained, Lagrangian};
@@ -128,7 +129,14 @@ where
             }
         }
         let momenta = Momenta { p0: self.state.p, p1: self.free.momenta(&segment).p1 };
-        Step::completed(self.state, segment.h, segment.v, &momenta, step.report)
+        let corrected = Step::completed(self.state, segment.h, segment.v, &momenta, step.report)?;
+        match Rows::far_off(self.system, &segment) {
+            None => Ok(corrected),
+            Some((constraint, value)) => {
+                let error = StepError::OffConstraint { constraint, value: value.widen() };
+                Err(self.lost(error, &corrected))
+            }
+        }
     }
 
     /// The error of a step whose end is off a constraint: constraints that seemed redundant contradict one

@@ -9,6 +9,9 @@ use crate::system::{Constrained, ConstrainedParameters, sizes};
 /// Roundings of the terms of a constraint below which its value counts as 0.
 const ROUNDINGS: f64 = 4.0;
 
+/// Roundings that a step may leave of a constraint where it cannot be corrected further.
+const MOST_ROUNDINGS: f64 = 16.0;
+
 /// M constraints on a segment: c = g(q1)/h or ψ(q̄, v̄).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rows<S, const N: usize, const M: usize> {
@@ -74,6 +77,19 @@ impl<S: Scalar, const N: usize, const M: usize> Rows<S, N, M> {
             rows.gradients = with_last(rows.gradients, &gradients, L::OF_VELOCITY);
         }
         rows
+    }
+
+    /// The first constraint of which more than some roundings are left, with what is left of h c.
+    pub(super) fn far_off<L>(system: &L, segment: &Segment<S, N>) -> Option<(usize, S)>
+    where
+        L: Constrained<N, M, Scalar = S>,
+    {
+        let rows = Self::on(system, segment);
+        let terms = sizes(&rows.gradients, &(segment.q0.abs() + (segment.v * segment.h).abs()));
+        let most = terms * (S::EPSILON * S::constant(MOST_ROUNDINGS));
+        let mut left = rows.values.as_slice().iter().zip(most.as_slice()).enumerate();
+        let found = left.find(|(_, (value, most))| (**value * segment.h).abs() > **most);
+        found.map(|(constraint, (value, _))| (constraint, *value * segment.h))
     }
 
     /// Whether more than rounding is left of a constraint.
