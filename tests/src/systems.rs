@@ -7,6 +7,7 @@ mod chain;
 mod charge;
 mod double_pendulum;
 mod follower;
+mod hoist;
 mod pendulum;
 
 pub use bead::Bead;
@@ -14,4 +15,5 @@ pub use chain::{Chain, SITES};
 pub use charge::Charge;
 pub use double_pendulum::DoublePendulum;
 pub use follower::Follower;
+pub use hoist::{Hoist, HoistByAngle, rope};
 pub use pendulum::{FreePendulum, Pendulum, free_pendulum};

@@ -1,46 +1,9 @@
 //! Runs on constraints: an error asked for, events, states between steps; each beside a motion in minimal
 //! coordinates.
 
-use dalembert::{Composition, Discretise, Gauss, Midpoint, State, StepError, rayleigh_system};
-
-/// A load of 1.5 on a rope whose length changes with time, with drag.
-struct Hoist;
-
-#[rayleigh_system]
-impl Hoist {
-    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
-        0.75 * (v[0] * v[0] + v[1] * v[1]) - 1.5 * 9.81 * q[1]
-    }
-
-    fn rayleigh(&self, v: [f64; 2]) -> f64 {
-        0.15 * (v[0] * v[0] + v[1] * v[1])
-    }
-
-    fn constraints(&self, q: [f64; 2], t: f64) -> [f64; 1] {
-        let length = 2.0 - 0.5 * (0.7 * t).sin();
-        [q[0] * q[0] + q[1] * q[1] - length * length]
-    }
-}
-
-/// The load by its angle.
-struct ByAngle;
-
-#[rayleigh_system(rule = gauss)]
-impl ByAngle {
-    fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
-        let (length, rate) = (2.0 - 0.5 * (0.7 * t).sin(), -0.35 * (0.7 * t).cos());
-        0.75 * (rate * rate + length * length * v[0] * v[0]) + 1.5 * 9.81 * length * q[0].cos()
-    }
-
-    fn rayleigh(&self, v: [f64; 1], t: f64) -> f64 {
-        let length = 2.0 - 0.5 * (0.7 * t).sin();
-        0.15 * length * length * v[0] * v[0]
-    }
-}
-
-fn length(t: f64) -> f64 {
-    2.0 - 0.5 * (0.7 * t).sin()
-}
+use dalembert::nalgebra::Vector2;
+use dalembert::{Composition, Discretise, Gauss, Midpoint, State, StepError};
+use dalembert_tests::systems::{Hoist, HoistByAngle, rope};
 
 /// At rest beside the rope, at an angle of .8.
 fn start() -> Result<State<f64, 2>, StepError> {
@@ -48,13 +11,13 @@ fn start() -> Result<State<f64, 2>, StepError> {
     State::from_velocity(&Hoist.at_time(0.0), [2.0 * s, -2.0 * c], [-0.35 * s, 0.35 * c])
 }
 
-fn angle(q: &dalembert::nalgebra::Vector2<f64>) -> f64 {
+fn angle(q: &Vector2<f64>) -> f64 {
     f64::atan2(q[0], -q[1])
 }
 
 /// The angle at a time, to 1e-13.
 fn exact(time: f64) -> Result<f64, StepError> {
-    let view = ByAngle.at_time(0.0);
+    let view = HoistByAngle.at_time(0.0);
     let steps = (time / 0.1).ceil() as usize;
     let start = State::from_velocity(&view, [0.8], [0.0])?;
     Ok(view.by(Gauss::<8>, time / steps as f64).run(start).nth(steps - 1).unwrap()?.state.q[0])
@@ -68,9 +31,9 @@ fn an_error_asked_for_is_kept_on_constraints() -> Result<(), StepError> {
     for tolerance in [1e-3, 1e-5, 1e-7, 1e-9] {
         let reached = view.to_error(tolerance).until(time).end(&start).unwrap();
         // The error of q itself: the rope is as long as it should be.
-        let error = (angle(&reached.state.q) - exact(time)?).abs() * length(time);
+        let error = (angle(&reached.state.q) - exact(time)?).abs() * rope(time)[0];
         assert!(error <= tolerance && reached.expected <= tolerance, "{tolerance:e}: {error:e}");
-        assert!((reached.state.q.norm() - length(time)).abs() < 1e-14);
+        assert!((reached.state.q.norm() - rope(time)[0]).abs() < 1e-14);
         most = most.max(error / tolerance);
     }
     // Positive control: runs err by about what is asked for, not by much less.
@@ -97,7 +60,7 @@ fn events_and_states_between_steps_are_on_the_constraints() -> Result<(), StepEr
         dense.next().unwrap()?;
         let [_, to] = dense.interval().unwrap();
         let (time, between) = (to - 0.017, dense.state_at(to - 0.017).unwrap());
-        assert!((between.q.norm() - length(time)).abs() < 1e-14, "{time}");
+        assert!((between.q.norm() - rope(time)[0]).abs() < 1e-14, "{time}");
         assert!((angle(&between.q) - exact(time)?).abs() < 1e-11, "{time}");
     }
     Ok(())

@@ -1,46 +1,7 @@
 //! Constraints that depend on time, beside coordinates that the time prescribes.
 
-use dalembert::{Composition, Discretise, Gauss, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
-
-/// The length of the rope at time t, and its rate.
-fn rope(t: f64) -> [f64; 2] {
-    [2.0 - 0.5 * (0.7 * t).sin(), -0.35 * (0.7 * t).cos()]
-}
-
-/// A load of 1.5 that hangs on a rope of prescribed length, with drag.
-struct Hoist;
-
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
-impl Hoist {
-    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
-        0.75 * (v[0] * v[0] + v[1] * v[1]) - 1.5 * 9.81 * q[1]
-    }
-
-    fn rayleigh(&self, v: [f64; 2]) -> f64 {
-        0.15 * (v[0] * v[0] + v[1] * v[1])
-    }
-
-    fn constraints(&self, q: [f64; 2], t: f64) -> [f64; 1] {
-        let length = 2.0 - 0.5 * (0.7 * t).sin();
-        [q[0] * q[0] + q[1] * q[1] - length * length]
-    }
-}
-
-/// The load by its angle.
-struct ByAngle;
-
-#[rayleigh_system(rule = gauss)]
-impl ByAngle {
-    fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
-        let (length, rate) = (2.0 - 0.5 * (0.7 * t).sin(), -0.35 * (0.7 * t).cos());
-        0.75 * (rate * rate + length * length * v[0] * v[0]) + 1.5 * 9.81 * length * q[0].cos()
-    }
-
-    fn rayleigh(&self, v: [f64; 1], t: f64) -> f64 {
-        let length = 2.0 - 0.5 * (0.7 * t).sin();
-        0.15 * length * length * v[0] * v[0]
-    }
-}
+use dalembert::{Composition, Discretise, Gauss, Midpoint, State, StepError, Trapezoidal};
+use dalembert_tests::systems::{Hoist, HoistByAngle, rope};
 
 fn start() -> ([f64; 2], [f64; 2]) {
     let [length, rate] = rope(0.0);
@@ -51,7 +12,7 @@ fn start() -> ([f64; 2], [f64; 2]) {
 
 #[test]
 fn a_load_on_a_moving_rope_goes_as_its_angle_does() -> Result<(), StepError> {
-    let view = ByAngle.at_time(0.0);
+    let view = HoistByAngle.at_time(0.0);
     let by_angle = State::from_velocity(&view, [0.8], [0.5])?;
     let angle = view.by(Gauss::<6>, 0.1).run(by_angle).nth(39).unwrap()?.state.q[0];
     let (q, v) = start();
