@@ -1,4 +1,4 @@
-//! A load on a rope of prescribed length: by its place, on a constraint that depends on time, and by its angle.
+//! A load on a rope of prescribed length: by its place, on a constraint in time, and by its angle.
 
 use dalembert::rayleigh_system;
 
