@@ -128,10 +128,13 @@ def test_where_no_state_is_in_reach_nothing_is_made_up(bob):
         assert raised.value.kind == "NonFinite" and list(raised.value.q) == q
 
 
+def test_an_error_can_be_asked_for_on_constraints(bob, start):
+    ends = [bob.run(tolerance=tolerance, until=1.0, **start).q[-1] for tolerance in (1e-6, 1e-9)]
+    assert max(abs(ends[0] - ends[1])) < 1.1e-6
+    assert abs(sum(ends[1] ** 2) ** 0.5 - 0.7) < 1e-14
+
+
 def test_what_constraints_do_not_have_is_refused_by_name(bob, start):
-    for call, q in ((bob.run, start["q"]), (bob.ensemble, [start["q"]])):
-        with pytest.raises(ValueError, match="tolerance: on constraints .* give h and steps"):
-            call(tolerance=1e-6, until=1.0, q=q, v=start["v"])
     with pytest.raises(ValueError, match="rule: expected one of midpoint, trapezoidal, got blanes_moan_4"):
         bob.run(h=0.01, steps=1, rule="blanes_moan_4", **start)
     with pytest.raises(ValueError, match="symmetries: .* without constraints"):
