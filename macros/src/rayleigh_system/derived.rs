@@ -125,6 +125,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered) -> Result<Derived, Refus
     if system.rules.ask_for_cancelling_terms() {
         functions.extend(deriving.cancelling_terms());
     }
+    functions.extend(deriving.constraint_rounding(&constraints));
     let places = deriving.places();
     let graph = deriving.graph;
     Ok(Derived {

@@ -94,7 +94,7 @@ pub fn write(docs: &Path) -> Result<()> {
         ];
     }
     if IS_NATIVE {
-        let page = rows_found.iter().try_fold(before, |page, row| row.into_page(&page))?;
+        let page = rows_found.iter().try_fold(before, |page, row| row.replaced_in(&page))?;
         return results::save(&path, &page);
     }
     let mut page = include_str!("../ensembles.md").to_owned();

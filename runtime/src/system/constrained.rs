@@ -47,6 +47,14 @@ pub trait Constrained<const N: usize, const M: usize>: Lagrangian<N> {
         q: &SVector<Self::Scalar, N>,
     ) -> (SVector<Self::Scalar, M>, SMatrix<Self::Scalar, M, N>);
 
+    /// The rounding of g at q, over ε: the sizes of its terms, of whatever origin q is measured from.
+    /// Infinite where it is not known.
+    #[cold]
+    fn constraint_rounding(&self, q: &SVector<Self::Scalar, N>) -> SVector<Self::Scalar, M> {
+        let _ = q;
+        SVector::repeat(Self::Scalar::constant(f64::INFINITY))
+    }
+
     /// ρ(q, v), and ∂ρ/∂q of shape M×N. A step asks for it where there are constraints of velocity, or
     /// prescribed ones.
     fn constraint_rates(

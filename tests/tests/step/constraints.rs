@@ -305,6 +305,53 @@ fn a_pendulum_hangs_at_rest_and_comes_to_rest() -> Result<(), StepError> {
     Ok(())
 }
 
+/// A bob whose rod hangs above the origin of q, where neither q nor the gradient tells how long the rod is.
+struct FromOrigin {
+    length: f64,
+    c: f64,
+    is_root: bool,
+}
+
+#[rayleigh_system(rule = [midpoint, trapezoidal])]
+impl FromOrigin {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - 9.81 * q[1]
+    }
+
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.5 * self.c * (v[0] * v[0] + v[1] * v[1])
+    }
+
+    fn constraints(&self, q: [f64; 2]) -> [f64; 1] {
+        let square = q[0] * q[0] + (q[1] - self.length) * (q[1] - self.length);
+        [if self.is_root { square.sqrt() - self.length } else { square - self.length * self.length }]
+    }
+}
+
+/// Steps whose last corrections are rounding of the length itself were refused as off the constraint.
+#[test]
+fn a_pendulum_goes_from_and_through_the_origin() -> Result<(), StepError> {
+    let steps = if cfg!(debug_assertions) { 200 } else { 20_000 };
+    for (length, is_root) in [1e-6_f64, 1e-3, 1.0, 1e3].into_iter().flat_map(|l| [(l, false), (l, true)]) {
+        let rate = (9.81 / length).sqrt();
+        for (damping, angle) in [0.0, 0.5, 20.0].into_iter().flat_map(|c| [(c, 0.0_f64), (c, 1e-9), (c, 0.3)])
+        {
+            let system = FromOrigin { length, c: damping * rate, is_root };
+            let q = [length * angle.sin(), length - length * angle.cos()];
+            let start = State::nearest(&system, q, [0.0; 2])?;
+            for step in system.by(Midpoint, 0.05 / rate).run(start).take(steps) {
+                let state = step?.state;
+                let rod = f64::hypot(state.q[0], state.q[1] - length);
+                assert!((rod / length - 1.0).abs() < 40.0 * f64::EPSILON);
+            }
+            for step in system.by(Trapezoidal, 0.05 / rate).run(start).take(steps) {
+                step?;
+            }
+        }
+    }
+    Ok(())
+}
+
 /// Two rods of one mass and length, without friction.
 struct Swing;
 

@@ -7,7 +7,7 @@ use dalembert::step::{ClosedForm, Discrete, Flow, FlowInLanes, ForceWork, Linear
 use dalembert::tolerance::{OffersMethods, ToleranceError};
 use dalembert::{State, StepError};
 use dalembert_ensemble::{OneByOne, Plan, SideBySide, ToError};
-use dalembert_face::{ByInput, ByParameters, Column, Described, Reacting};
+use dalembert_face::{ByInput, ByParameters, Column, Reacting};
 
 use crate::checks::{self, Checks};
 use crate::derivatives::{column_rows, matrix_rows};
@@ -43,14 +43,9 @@ pub trait Offers<const N: usize>: System<N> {
     /// Runs to an error asked for.
     ///
     /// # Errors
-    /// [`Refusal::NoError`], [`Refusal::OnConstraints`].
+    /// [`Refusal::NoError`].
     fn to_error() -> Result<Box<dyn StepsToError<Self, N>>, Refusal> {
-        Self::steps_to_error().ok_or(match Self::Fields::CONSTRAINTS {
-            0 => Refusal::NoError,
-            _ => Refusal::OnConstraints(
-                "tolerance: on constraints no method is chosen for an error; give h and steps",
-            ),
-        })
+        Self::steps_to_error().ok_or(Refusal::NoError)
     }
 
     /// The offer of the rule of this name, or of the first.

@@ -72,16 +72,41 @@ impl Deriving<'_> {
         if !roots.iter().any(may_cancel) || !has_room || self.graph.operations(roots.iter().copied()) > MOST {
             return None;
         }
-        let mut sizes: HashMap<Node, Node> = HashMap::new();
-        for node in self.graph.reachable(roots.iter().copied().filter(may_cancel)) {
-            if kinds[&node] != Rounding::Vanishing
+        let cancelling = roots.iter().copied().filter(may_cancel);
+        let sizes = self.sizes_rounded(cancelling, |node| kinds[&node] != Rounding::Vanishing);
+        let of = |root: &Node| sizes.get(root).filter(|_| may_cancel(root)).copied();
+        Some(roots.iter().map(|root| self.or_zero(of(root))).collect())
+    }
+
+    /// The rounding of each constraint, over ε; nothing where they are long.
+    pub(super) fn constraint_rounding(&mut self, constraints: &[Vec<Node>; 2]) -> Option<Routine> {
+        let [holonomic, of_velocity] = constraints;
+        let has_room = self.graph.len() < MOST_EXPRESSIONS / 2;
+        if holonomic.is_empty() || !has_room || self.graph.operations(holonomic.iter().copied()) > MOST {
+            return None;
+        }
+        let sizes = self.sizes_rounded(holonomic.iter().copied(), |_| true);
+        let mut outputs: Vec<Node> =
+            holonomic.iter().map(|root| self.or_zero(sizes.get(root).copied())).collect();
+        outputs.extend(of_velocity.iter().map(|_| self.or_zero(None)));
+        self.made(Of::ConstraintRounding, self.system.home_of(Part::Constraints), &outputs).ok()
+    }
+
+    /// The rounding of all that `roots` are made of, over ε, as far as it counts.
+    fn sizes_rounded(
+        &mut self,
+        roots: impl Iterator<Item = Node>,
+        counts: impl Fn(Node) -> bool,
+    ) -> HashMap<Node, Node> {
+        let mut sizes = HashMap::new();
+        for node in self.graph.reachable(roots) {
+            if counts(node)
                 && let Some(size) = self.rounded_in(node, &sizes)
             {
                 sizes.insert(node, size);
             }
         }
-        let of = |root: &Node| sizes.get(root).filter(|_| may_cancel(root)).copied();
-        Some(roots.iter().map(|root| self.or_zero(of(root))).collect())
+        sizes
     }
 
     /// The kinds of all that `roots` are made of.

@@ -48,6 +48,8 @@ pub enum Of {
     TimeScaleGradient,
     /// g and G, of all rows.
     ConstraintGradients,
+    /// The rounding of g, over ε.
+    ConstraintRounding,
     /// ρ and ∂ρ/∂q.
     ConstraintRates,
     /// ∂(Gᵀλ)/∂q.

@@ -111,6 +111,11 @@ fn delegation(system: &System<'_>, constants: &TokenStream) -> TokenStream {
                 #of_system::constraint_gradients(self.system, q)
             }
 
+            #[cold]
+            fn constraint_rounding(&self, q: &Vector) -> SVector<#scalar, #m> {
+                #of_system::constraint_rounding(self.system, q)
+            }
+
             #[inline]
             fn constraint_rates(&self, q: &Vector, v: &Vector) -> #rows {
                 #of_system::constraint_rates(self.system, q, v)

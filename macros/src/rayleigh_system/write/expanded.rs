@@ -70,7 +70,10 @@ fn functions(system: &System<'_>, derived: Derived, is_portable: bool) -> Engine
         [Of::ForceDerivatives, Of::TimeScaleGradient, Of::ForceByInput, Of::CancellingTerms]
             .map(|asked| text.functions_of(|of| of == asked));
     let constraints = text.functions_of(|of| {
-        matches!(of, Of::ConstraintGradients | Of::ConstraintRates | Of::ConstraintCurvature)
+        matches!(
+            of,
+            Of::ConstraintGradients | Of::ConstraintRates | Of::ConstraintCurvature | Of::ConstraintRounding
+        )
     });
     let constraints = constraints.map(|functions| (functions, derived.constraints.is_prescribed));
     let constraints_by_parameters = text.functions_of(|of| of == Of::ConstraintsByParameters);

@@ -27,7 +27,7 @@ impl Row {
     ///
     /// # Errors
     /// The page has no such row.
-    pub fn into_page(&self, page: &str) -> Result<String> {
+    pub fn replaced_in(&self, page: &str) -> Result<String> {
         let line = line_of(page, &self.key).with_context(|| format!("the page has no row {}", self.key))?;
         let mut cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
         cells.truncate(cells.len().saturating_sub(2));
@@ -62,7 +62,7 @@ mod tests {
         let first = row.line("");
         assert_eq!(first, "| ring | 1e-6 | ours 5.0 | 9e-7 | batch 50.0 | 1e-8 | 0.10 |  |  |\n");
         let native = Row { ours: [cell("native 4.0"), cell("8e-7")], ratio: cell("0.08"), ..row };
-        let both = native.into_page(&first).unwrap();
+        let both = native.replaced_in(&first).unwrap();
         assert_eq!(
             both,
             "| ring | 1e-6 | ours 5.0 | 9e-7 | batch 50.0 | 1e-8 | 0.10 | native 4.0 | 0.08 |\n"
@@ -73,6 +73,6 @@ mod tests {
             "| ring | 1e-6 | ours 6.0 | 9e-7 | batch 50.0 | 1e-8 | 0.12 | native 4.0 | 0.08 |\n"
         );
         // Of another scene there is no row.
-        assert!(again.into_page("| Kepler | 1e-6 | a | b |").is_err());
+        assert!(again.replaced_in("| Kepler | 1e-6 | a | b |").is_err());
     }
 }

@@ -44,7 +44,7 @@ where
     let apart = ComplexField::sqrt(L::Scalar::EPSILON.widen()) * scale.furthest.widen();
     let share = number(apart / scale.norm(error));
     let beside = State { q: state.q + error.q * share, p: state.p + error.p * share };
-    let beside = methods.nearest(system, &beside)?;
+    let beside = system.later(number(elapsed), |system| methods.nearest(system, &beside))?;
     let mut evaluations = 0.0;
     if kept.as_ref().is_none_or(|(size, _)| *size != tau) {
         *kept = methods.step(Method::Rule, number(tau)).map(|step| (tau, step));

@@ -52,7 +52,16 @@ impl<S: Scalar, const N: usize, const M: usize> Bordered<S, N, M> {
 
     /// κ of what is `left` without constraints on the segment itself.
     pub(super) fn multipliers(&self, factored: &impl Factored<S, N>, left: &SVector<S, N>) -> SVector<S, M> {
-        self.complement.solve(&(self.rows.gradients * factored.solve(left) - self.rows.values))
+        self.multipliers_by(factored, left, &self.rows.values)
+    }
+
+    fn multipliers_by(
+        &self,
+        factored: &impl Factored<S, N>,
+        left: &SVector<S, N>,
+        values: &SVector<S, M>,
+    ) -> SVector<S, M> {
+        self.complement.solve(&(self.rows.gradients * factored.solve(left) - values))
     }
 
     /// F on the segment itself.
@@ -62,7 +71,17 @@ impl<S: Scalar, const N: usize, const M: usize> Bordered<S, N, M> {
 
     /// F on the segment itself with κ refined once: rounded as the reactions are, whatever S is like.
     pub(super) fn refined(&self, factored: &impl Factored<S, N>, left: &SVector<S, N>) -> SVector<S, N> {
-        self.residual(factored, &self.residual(factored, left))
+        self.refined_by(factored, *left, &self.rows.values)
+    }
+
+    fn refined_by(
+        &self,
+        factored: &impl Factored<S, N>,
+        left: SVector<S, N>,
+        values: &SVector<S, M>,
+    ) -> SVector<S, N> {
+        let once = left - self.directions * self.multipliers_by(factored, &left, values);
+        once - self.directions * self.multipliers_by(factored, &once, values)
     }
 
     /// Sizes of the reactions, Σₖ |Gₖᵢ(q0) κₖ|.
@@ -95,11 +114,6 @@ impl<S: Scalar, const N: usize, const M: usize> Bordered<S, N, M> {
     where
         L: Constrained<N, M, Scalar = S>,
     {
-        let values = self.rows.values(system, segment);
-        let residual = |left: SVector<S, N>| {
-            let off = self.rows.gradients * factored.solve(&left) - values;
-            left - self.directions * self.complement.solve(&off)
-        };
-        residual(residual(left))
+        self.refined_by(factored, left, &self.rows.values(system, segment))
     }
 }

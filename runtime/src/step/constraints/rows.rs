@@ -79,17 +79,22 @@ impl<S: Scalar, const N: usize, const M: usize> Rows<S, N, M> {
         rows
     }
 
-    /// The first constraint of which more than some roundings are left, with what is left of h c.
+    /// The first holonomic constraint that the end of the segment is off by more than some roundings, with
+    /// its value.
     pub(super) fn far_off<L>(system: &L, segment: &Segment<S, N>) -> Option<(usize, S)>
     where
         L: Constrained<N, M, Scalar = S>,
     {
-        let rows = Self::on(system, segment);
-        let terms = sizes(&rows.gradients, &(segment.q0.abs() + (segment.v * segment.h).abs()));
-        let most = terms * (S::EPSILON * S::constant(MOST_ROUNDINGS));
-        let mut left = rows.values.as_slice().iter().zip(most.as_slice()).enumerate();
-        let found = left.find(|(_, (value, most))| (**value * segment.h).abs() > **most);
-        found.map(|(constraint, (value, _))| (constraint, *value * segment.h))
+        system.later(segment.h, |system| {
+            let end = segment.end();
+            let (values, gradients) = system.constraint_gradients(&end);
+            let terms = sizes(&gradients, &(segment.q0.abs() + (segment.v * segment.h).abs()));
+            let most =
+                (terms + system.constraint_rounding(&end)) * (S::EPSILON * S::constant(MOST_ROUNDINGS));
+            let holonomic = values.as_slice().iter().zip(most.as_slice()).take(M - L::OF_VELOCITY.min(M));
+            let mut found = holonomic.enumerate();
+            found.find(|(_, (value, most))| value.abs() > **most).map(|(k, (value, _))| (k, *value))
+        })
     }
 
     /// Whether more than rounding is left of a constraint.

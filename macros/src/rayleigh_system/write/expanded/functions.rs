@@ -63,6 +63,15 @@ impl Text<'_> {
                 let result = quote!((SVector::from([#(#values),*]), #gradients));
                 (inlined(statements), "constraint_gradients".to_owned(), ty, result)
             }
+            Of::ConstraintRounding => {
+                let attributes = quote! {
+                    /// The rounding of g, over ε: a running error bound.
+                    #[cold]
+                };
+                let ty = quote!(SVector<#scalar, #constraints>);
+                let result = quote!(SVector::from([#(#outputs),*]));
+                (Some(attributes), "constraint_rounding".to_owned(), ty, result)
+            }
             Of::ConstraintRates => {
                 let count = outputs.len() / (self.derived.n + 1);
                 let (rates, by_q) = outputs.split_at(count);
@@ -123,8 +132,13 @@ impl Text<'_> {
             _ => return TokenStream::new(),
         };
         let (name, q) = (format_ident!("{name}"), parameter("q", line.uses_coordinates));
-        let of_configuration =
-            matches!(function.of, Of::TimeScaleGradient | Of::ConstraintGradients | Of::ConstraintCurvature);
+        let of_configuration = matches!(
+            function.of,
+            Of::TimeScaleGradient
+                | Of::ConstraintGradients
+                | Of::ConstraintCurvature
+                | Of::ConstraintRounding
+        );
         let v = (!of_configuration).then(|| {
             let v = parameter("v", line.uses_velocities);
             quote!(, #v: &Vector)
