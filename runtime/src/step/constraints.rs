@@ -42,7 +42,7 @@ pub use bordered::Bordered;
 use bordered::rounding_of_reactions;
 use equation::OnConstraints;
 pub use linearized::Linearized;
-use nearest::{require_on, tangent};
+use nearest::{held, require_on};
 
 /// M constraints, [`Constrained`]: the border of a step on N = g⁻¹(0), along the constraints of velocity.
 #[derive(Clone, Copy, Debug)]
@@ -116,9 +116,7 @@ where
     }
 
     fn completed(system: &L, step: Step<L::Scalar, N>, h: L::Scalar) -> Option<Step<L::Scalar, N>> {
-        let state = system.later(h, |system| tangent::<L, N, M>(system, &step.state)).ok()?;
-        state.require_reached().ok()?;
-        Some(Step { state, ..step })
+        held::<L, N, M>(system, step, h).ok()
     }
 
     fn nearest(system: &L, state: &State<L::Scalar, N>) -> Option<State<L::Scalar, N>> {

@@ -13,7 +13,7 @@ use super::scale::Scale;
 use super::shift::{along_the_motion, shift};
 use super::tangent::carried;
 use super::twin::{self, Kept};
-use super::variation::Variation;
+use super::variation::{self, Variation};
 use crate::numbers::Scalar;
 use crate::numbers::random::Random;
 use crate::step::State;
@@ -211,7 +211,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         L: ActingForce<N, Scalar = S>,
         M: Methods<L, N>,
     {
-        self.evaluations += of_variation::<L, N>();
+        self.evaluations += variation::cost::<L, N>();
         let guess = self.last.map(|(last, _)| last.velocity_at(state));
         system.later(S::constant(time), |system| {
             let near = guess.and_then(|guess| Variation::at((system, methods), state, &guess));
@@ -294,7 +294,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         M: Methods<L, N>,
     {
         let is_other = DRIVES.into_iter().any(|share| {
-            self.evaluations += of_variation::<L, N>();
+            self.evaluations += variation::cost::<L, N>();
             let later = |system: &L| start.in_time((system, methods));
             let later = system.later(S::constant(share * ahead), later);
             later.is_none_or(|later| start.is_another(&later))
@@ -344,7 +344,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
             let share = S::constant(share / parts);
             let state = last.between(to, t, share, is_timed);
             let guess = from.velocity_at(&state);
-            *evaluations += of_variation::<L, N>();
+            *evaluations += variation::cost::<L, N>();
             let at = |system: &L| Variation::at((system, methods), &state, &guess);
             let found = system.later(S::constant(before) + share * t, at);
             if let (Some(drive), Some(found)) = (drive.as_mut(), &found) {
@@ -394,11 +394,6 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         let sizes = [&self.error, a, b].map(|error| scale.largest(&self.over_a_turn(error, scale)));
         nalgebra::ComplexField::sqrt(sizes.map(|size| size * size).iter().sum::<f64>())
     }
-}
-
-/// The cost of the motion at one state, in evaluations: on constraints that of two steps.
-fn of_variation<L: Lagrangian<N>, const N: usize>() -> f64 {
-    if L::IS_CONSTRAINED { 24.0 } else { 2.0 }
 }
 
 /// The rounding error of the state over some steps: of q and p by their own rounding, and of p by that of the

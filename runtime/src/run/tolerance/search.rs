@@ -6,7 +6,7 @@ use super::drive::DRIVES;
 use super::grid::{Bounds, segments};
 use super::hardest::Hardest;
 use super::scale::Scale;
-use super::variation::Variation;
+use super::variation::{self, Variation};
 use super::{Choice, Chosen, Method, MethodStep, Methods, ToleranceError, Trial, local_error};
 use crate::numbers::Scalar;
 use crate::numbers::random::Random;
@@ -220,7 +220,7 @@ where
             reach: 0.0,
             spent: 4.0,
         };
-        start.spent += 2.0;
+        start.spent += variation::cost::<L, N>();
         if let Some(variation) = Variation::at((system, methods), &state, &velocity) {
             start.fastest = variation.fastest.widen().max(1.0 / time);
             start.weight = variation.matrix.q_by_p.norm().widen() / start.fastest;
@@ -228,7 +228,7 @@ where
         }
         if is_timed(system) {
             for share in DRIVES {
-                start.spent += 2.0;
+                start.spent += variation::cost::<L, N>();
                 let at = |system: &L| Variation::at((system, methods), &state, &velocity);
                 if let Some(variation) = system.later(L::Scalar::constant(share * time), at) {
                     start.reach = start.reach.max(start.reach_of(&variation));
@@ -250,7 +250,7 @@ where
         let (mut seen, mut is_driven) = (0, false);
         let mut random = Random::new(0x5851_f42d_4c95_7f2d);
         for look in 0..LOOKS {
-            self.spent += 2.0;
+            self.spent += variation::cost::<L, N>();
             let within = (f64::from(look) + random.unit()) / f64::from(LOOKS);
             let at = |system: &L| rest.in_time((system, methods));
             let Some(later) = self.system.later(L::Scalar::constant(within * self.time), at) else {
@@ -277,7 +277,7 @@ where
     /// Tries steps in this passage as well, where the motion may be faster.
     fn pass(&mut self, passage: Hardest<L::Scalar, N>) {
         let Hardest { state, elapsed, .. } = passage;
-        self.spent += 2.0;
+        self.spent += variation::cost::<L, N>();
         let variation = self.system.later(L::Scalar::constant(elapsed), |system| {
             Variation::at((system, self.methods), &state, &state.velocity(system).ok()?)
         });

@@ -50,6 +50,11 @@ const ATTEMPTS: u32 = 6;
 /// A velocity that Newton's method changes by less than this share is that of the state.
 const VELOCITY: f64 = 1e-3;
 
+/// The cost of the motion at one state, in evaluations: on constraints that of two steps.
+pub(super) const fn cost<L: Lagrangian<N>, const N: usize>() -> f64 {
+    if L::IS_CONSTRAINED { 24.0 } else { 2.0 }
+}
+
 impl<S: Scalar, const N: usize> Variation<S, N> {
     /// At `state`, with a guess for the velocity. Nothing where the derivatives do not exist.
     pub(super) fn at<L, M>(

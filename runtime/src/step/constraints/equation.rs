@@ -5,7 +5,7 @@ use core::cell::{Cell, RefCell};
 use nalgebra::{SMatrix, SVector};
 
 use super::bordered::{Bordered, rounding_of_reactions};
-use super::nearest::{dependence, dependent, require_on, tangent};
+use super::nearest::{dependence, dependent, held, require_on};
 use super::rows::Rows;
 use crate::numbers::{Factored, NewtonMatrix, Scalar};
 use crate::step::equation::{OfRule, StepEquation};
@@ -103,10 +103,7 @@ where
             _ => false,
         };
         let step = if is_off { self.corrected(segment, step)? } else { step };
-        let reached = self.system.later(h, |system| tangent::<L, N, M>(system, &step.state));
-        let state = reached.map_err(|error| self.lost(error, &step))?;
-        state.require_reached()?;
-        Ok(Step { state, ..step })
+        held::<L, N, M>(self.system, step, h).map_err(|error| self.lost(error, &step))
     }
 
     /// The step on the segment corrected along the reactions, by what is left of the constraints alone: F

@@ -8,7 +8,7 @@ use super::rows::with_last;
 use crate::numbers::linear::by_columns;
 use crate::numbers::{Scalar, linear};
 use crate::step::newton::{estimated_floor, held_against};
-use crate::step::{State, StepError};
+use crate::step::{State, Step, StepError};
 use crate::system::{Constrained, Quantity, off, sizes};
 
 /// Corrections of a configuration or a velocity.
@@ -112,7 +112,7 @@ impl<S: Scalar, const N: usize, const M: usize> AtPoint<S, N, M> {
         L: Constrained<N, M, Scalar = S>,
     {
         let (values, gradients) = system.constraint_gradients(q);
-        Self::by(system, q, inertia, (values, gradients), &nalgebra::zero())
+        Self::by(system, q, inertia, (values, gradients), None)
     }
 
     /// Without constraints of velocity: their rows are 0.
@@ -131,7 +131,7 @@ impl<S: Scalar, const N: usize, const M: usize> AtPoint<S, N, M> {
         let gradients = with_last(gradients, &nalgebra::zero(), L::OF_VELOCITY);
         // Whatever stands on the diagonal there, their multipliers are 0.
         let beside = with_last(nalgebra::zero(), &SMatrix::identity(), L::OF_VELOCITY);
-        Self::by(system, q, Inertia::at(system, q, v)?, (values, gradients), &beside)
+        Self::by(system, q, Inertia::at(system, q, v)?, (values, gradients), Some(&beside))
     }
 
     fn by<L>(
@@ -139,14 +139,15 @@ impl<S: Scalar, const N: usize, const M: usize> AtPoint<S, N, M> {
         q: &SVector<S, N>,
         inertia: Inertia<S, N>,
         (values, gradients): (SVector<S, M>, SMatrix<S, M, N>),
-        beside: &SMatrix<S, M, M>,
+        beside: Option<&SMatrix<S, M, M>>,
     ) -> Result<Self, StepError>
     where
         L: Constrained<N, M, Scalar = S>,
     {
         let directions = gradients.transpose();
         let answers = by_columns(&directions, |direction| inertia.solve(direction));
-        match Complement::of(&(gradients * answers + beside)) {
+        let product = gradients * answers;
+        match Complement::of(&beside.map_or(product, |beside| product + beside)) {
             Some(complement) => Ok(Self { values, gradients, inertia, answers, complement }),
             None => {
                 StepError::require_finite(&directions, Quantity::Derivatives)?;
@@ -179,6 +180,20 @@ pub(super) fn require_on<S: Scalar, const N: usize, const M: usize>(
         None => Ok(()),
         Some((constraint, value)) => Err(StepError::OffConstraint { constraint, value: value.widen() }),
     }
+}
+
+/// The `step` of size `h` with its momentum on N at its end.
+pub(super) fn held<L, const N: usize, const M: usize>(
+    system: &L,
+    step: Step<L::Scalar, N>,
+    h: L::Scalar,
+) -> Result<Step<L::Scalar, N>, StepError>
+where
+    L: Constrained<N, M>,
+{
+    let state = system.later(h, |system| tangent::<L, N, M>(system, &step.state))?;
+    state.require_reached()?;
+    Ok(Step { state, ..step })
 }
 
 /// The state with its momentum on N: p − Gᵀμ with ρ(q, v(q, p − Gᵀμ)) = 0.
