@@ -116,8 +116,7 @@ linear!(StateBy<M> { q, p });
 
 impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
     /// From the derivatives of L_d and of f_d.
-    #[must_use]
-    pub fn from_terms(l: &Derivatives<S, N>, f: &DiscreteForceDerivatives<S, N>) -> Self {
+    pub(crate) fn from_terms(l: &Derivatives<S, N>, f: &DiscreteForceDerivatives<S, N>) -> Self {
         Self {
             momenta: Momenta { p0: -l.d1 - f.minus.value, p1: l.d2 + f.plus.value },
             p0_by_q0: -l.d11 - f.minus.d1,
