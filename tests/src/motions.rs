@@ -1,6 +1,6 @@
 //! Motions at random with references that share nothing with the methods under test: closed forms where there
 //! are some, and extrapolation in twice the digits elsewhere. What
-//! [`Method::for_tolerance`](dalembert::tolerance::Method::for_tolerance) promises is held against them.
+//! [`tolerance`](dalembert::tolerance) promises is held against them.
 
 mod collection;
 mod measured;

@@ -31,8 +31,7 @@ macro_rules! statuses {
             }
 
             /// Whether a system without constraints cannot return it.
-            #[must_use]
-            pub const fn is_of_constraints(self) -> bool {
+            pub(crate) const fn is_of_constraints(self) -> bool {
                 self as i32 >= Self::OffConstraint as i32 && self as i32 <= Self::NoStep as i32
             }
 

@@ -102,7 +102,7 @@ impl<S: Scalar, const N: usize> Derivatives<S, N> {
     /// `a` and `b` say what varying each new argument does to the old pair.
     #[inline]
     #[must_use]
-    pub fn pull_back(&self, a: Direction<S>, b: Direction<S>) -> Self {
+    pub(crate) fn pull_back(&self, a: Direction<S>, b: Direction<S>) -> Self {
         let second = |a, b| second_along(&self.d11, &self.d12, &self.d22, a, b);
         let gradient = self.gradient();
         Self {
@@ -170,7 +170,7 @@ impl<S: Scalar, const N: usize, const M: usize> Hessian<S, N, M> {
     /// b.
     #[inline]
     #[must_use]
-    pub fn pull_back(&self, a: Direction<S>, b: Direction<S>) -> Self {
+    pub(crate) fn pull_back(&self, a: Direction<S>, b: Direction<S>) -> Self {
         let second = |a, b| second_along(&self.d11, &self.d12, &self.d22, a, b);
         let with_input = |s: Direction<S>| self.d1u * s.first + self.d2u * s.second;
         Self {

@@ -109,10 +109,7 @@ impl<const S: usize> Gauss<S> {
     const COEFFICIENTS: Coefficients<S> = Coefficients::new();
 
     /// The nodes c_i of the stages, ascending in (0, 1).
-    pub const NODES: [f64; S] = Self::COEFFICIENTS.nodes;
-
-    /// The weights b_i, which sum to 1.
-    pub const WEIGHTS: [f64; S] = Self::COEFFICIENTS.weights;
+    pub(crate) const NODES: [f64; S] = Self::COEFFICIENTS.nodes;
 }
 
 /// The step to the stages that were solved for.

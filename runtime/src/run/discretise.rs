@@ -37,8 +37,8 @@ pub trait Discretise<const N: usize>: Lagrangian<N> + Sized {
     /// This system with an error of at most `tolerance` asked for, in units of q, of its state on the whole
     /// way: the method and the step size are chosen by the motion.
     ///
-    /// [`Method::for_tolerance`](crate::tolerance::Method::for_tolerance) says what is promised, how both are
-    /// chosen, and how the run is guarded.
+    /// [`tolerance`](crate::tolerance) says what is promised, how both are chosen, and how the run is
+    /// guarded.
     ///
     /// ```
     /// use dalembert::{Discretise, State, rayleigh_system};

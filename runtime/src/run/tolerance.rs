@@ -1,4 +1,40 @@
-//! Order and step size from a requested error, and a guard that carries the error along the run.
+//! Order and step size from a requested error, and a guard that carries the error along the run:
+//! [`to_error`](crate::Discretise::to_error).
+//!
+//! **What is seen.** Steps, half steps at some of them, and the force in the middle and at the ends of some.
+//! What happens between these and is over by then is not: a short pulse of force, a contact shorter than a
+//! step, a pole of the coordinates or a singular mass that a step passes over. Where that may be, bound the
+//! step ([`TimedRequest::longest_step`]), or say when ([`TimedRequest::breaking_at`]).
+//!
+//! **What is promised.** With the error (δq, δp) of a state, at every step of [`Choice::trajectory`]
+//!
+//! ```text
+//! |δqᵢ| ≤ ε,   w |δpᵢ| ≤ ε   for every i,       ε the tolerance, in units of q
+//! w = min(max |qᵢ − qᵢ(0)| / max |pᵢ|,  max |Δqᵢ| / max |Δpᵢ|)
+//! ```
+//!
+//! or a [`Breach`] or an error says that it is not so. The maxima are over the coordinates and the steps so
+//! far, Δ is the change over a step: w is 1/(mω) for an oscillator, and weighs a momentum like the coordinate
+//! that it moves. The promise rests on an estimate, which random motions have tried: the page
+//! `docs/evidence/error-asked-for.md` counts how often it was kept, passed by more than twice, and where a
+//! breach comes late or for nothing.
+//!
+//! **Choice.** One step of each method, from the start and from the first states of its run, is compared to
+//! two half ones, at steps longer and shorter until the error asked for is met: no error is extrapolated
+//! below what was tried. The error expected is the sum of these local errors over all steps; it may fill 15 %
+//! of the tolerance. Costs are evaluations of the forces, counted: iterations times stages. A method that
+//! would usually cost much more than the best one so far is not tried, and trying stops at a tenth of the
+//! cost of the run, so that runs of few steps are chosen for by few tries.
+//!
+//! **Guard.** The first steps do not show chaos, kinks, or a passage that comes later. So the run carries its
+//! error along ([`GuardedTrajectory`]), with the exact growth, and reports where it passes the tolerance. The
+//! state reached until then is good: [`Breach::instead`] is what to ask for from the start.
+//! [`TimedRequest::end`] does so by itself.
+//!
+//! The step size stays constant along the run, so that the structure is kept, but for what the sweeps of
+//! Gauss methods leave: they end where all steps together move the end by a hundredth of the tolerance
+//! ([`Choice::slack`], a hundredth of the tolerance over the number of steps). The local errors show it, as
+//! the half steps are solved to rounding, so that choice and guard count it in.
 
 mod between;
 mod display;
@@ -219,87 +255,6 @@ impl<S: Scalar, const N: usize> Chosen<S, N> {
     fn slack(&self) -> Option<f64> {
         let is_left = self.method.is_gauss();
         is_left.then(|| SLACK * self.aim / self.steps as f64)
-    }
-}
-
-impl Method {
-    /// The method and step size of least cost for an error of at most `tolerance` on the whole way.
-    ///
-    /// `methods` is the rule of order 2, which stands for itself and its compositions; [`WithSplittings`] of
-    /// it adds splittings, where the trapezoidal rule is explicit, and [`WithGauss`] Gauss methods, where
-    /// the system has `rule = [trapezoidal, gauss]`.
-    ///
-    /// **What is seen.** Steps, half steps at some of them, and the force in the middle and at the ends of
-    /// some. What happens between these and is over by then is not: a short pulse of force, a contact
-    /// shorter than a step, a pole of the coordinates or a singular mass that a step passes over. Where that
-    /// may be, bound the step ([`TimedRequest::longest_step`]), or say when
-    /// ([`TimedRequest::breaking_at`]).
-    ///
-    /// **What is promised.** With the error (δq, δp) of a state, at every step of [`Choice::trajectory`]
-    ///
-    /// ```text
-    /// |δqᵢ| ≤ ε,   w |δpᵢ| ≤ ε   for every i,       ε the tolerance, in units of q
-    /// w = min(max |qᵢ − qᵢ(0)| / max |pᵢ|,  max |Δqᵢ| / max |Δpᵢ|)
-    /// ```
-    ///
-    /// or a [`Breach`] or an error says that it is not so. The maxima are over the coordinates and the steps
-    /// so far, Δ is the change over a step: w is 1/(mω) for an oscillator, and weighs a momentum like the
-    /// coordinate that it moves. The promise rests on an estimate, which random motions have tried: the
-    /// page `docs/evidence/error-asked-for.md` counts how often it was kept, passed by more than twice, and
-    /// where a breach comes late or for nothing.
-    ///
-    /// **Choice.** One step of each method, from the start and from the first states of its run, is compared
-    /// to two half ones, at steps longer and shorter until the error asked for is met: no error is
-    /// extrapolated below what was tried. The error expected is the sum of these local errors over all
-    /// steps; it may fill 15 % of the tolerance. Costs are evaluations of the forces, counted: iterations
-    /// times stages. A method that would usually cost much more than the best one so far is not tried, and
-    /// trying stops at a tenth of the cost of the run, so that runs of few steps are chosen for by few
-    /// tries.
-    ///
-    /// **Guard.** The first steps do not show chaos, kinks, or a passage that comes later. So the run carries
-    /// its error along ([`GuardedTrajectory`]), with the exact growth, and reports where it passes the
-    /// tolerance. The state reached until then is good: [`Breach::instead`] is what to ask for from the
-    /// start. [`TimedRequest::end`] does so by itself.
-    ///
-    /// The step size stays constant along the run, so that the structure is kept, but for what the sweeps of
-    /// Gauss methods leave: they end where all steps together move the end by a hundredth of the tolerance
-    /// ([`Choice::slack`], a hundredth of the tolerance over the number of steps). The local errors show it,
-    /// as the half steps are solved to rounding, so that choice and guard count it in.
-    ///
-    /// ```
-    /// use dalembert::{Discretise, State, rayleigh_system};
-    ///
-    /// #[rayleigh_system(rule = [trapezoidal, gauss])]
-    /// fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
-    ///     (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
-    /// }
-    ///
-    /// let system = Pendulum { r: 0.01 };
-    /// let start = State::from_velocity(&system, [1.0], [0.0])?;
-    /// let choice = system.to_error(1e-9).until(100.0).choice(&start)?;
-    /// println!("{choice}"); // order 16, Gauss with 8 stages, h = …
-    /// let mut run = choice.trajectory();
-    /// for state in &mut run {
-    ///     state?;
-    /// }
-    /// assert!(run.breach().is_none());
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
-    /// # Errors
-    /// A [`ToleranceError`].
-    pub fn for_tolerance<'a, L, M, const N: usize>(
-        system: &'a L,
-        methods: M,
-        start: &State<L::Scalar, N>,
-        time: f64,
-        tolerance: f64,
-    ) -> Result<Choice<'a, L, M, N>, ToleranceError>
-    where
-        L: ActingForce<N>,
-        M: Methods<L, N>,
-    {
-        bounded((system, methods), start, [time, tolerance], Bounds::default())
     }
 }
 

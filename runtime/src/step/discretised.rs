@@ -6,14 +6,13 @@ use core::marker::PhantomData;
 
 use nalgebra::SVector;
 
-use crate::numbers::Derivatives;
 use crate::step::discrete::explained_on;
 #[cfg(feature = "theory")]
 use crate::step::stop::Stop;
 use crate::step::{
     BoundedFlow, BoundedStep, ClosedForm, Discrete, DiscreteForce, DiscreteObjects, DiscreteRayleigh,
-    DiscreteSegment, Flow, LegendreDerivatives, Linearizable, LinearizedStep, Memory, Segment, State, Step,
-    StepError, StepTaken, require_step_size,
+    DiscreteSegment, Flow, Linearizable, LinearizedStep, Memory, Segment, State, Step, StepError, StepTaken,
+    require_step_size,
 };
 use crate::system::{Lagrangian, Quantity};
 
@@ -337,7 +336,7 @@ where
 }
 
 /// The discrete objects on a segment (q0, q1), under the names of the theory, of rules that have formulas for
-/// them. [`segment`](Self::segment) serves all rules.
+/// them. [`segment`](Self::segment) serves all rules, and has the derivatives.
 impl<L, R, const N: usize> Discretised<'_, L, R, N>
 where
     L: Discrete<R, N>,
@@ -348,18 +347,6 @@ where
         L: ClosedForm<R, N>,
     {
         self.system.discrete_lagrangian(&self.between(q0, q1))
-    }
-
-    /// L_d with D1, D2, D11, D12, D22.
-    pub fn discrete_lagrangian_derivatives(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-    ) -> Derivatives<L::Scalar, N>
-    where
-        L: ClosedForm<R, N>,
-    {
-        self.system.discrete_lagrangian_derivatives(&self.between(q0, q1))
     }
 
     /// f_d = (f_d⁻, f_d⁺), of the Rayleigh function and the general force together; 0 where the system has
@@ -393,22 +380,6 @@ where
         L: ClosedForm<R, N>,
     {
         State { q: *q1, p: self.system.momenta(&self.between(q0, q1)).p1 }
-    }
-
-    /// Both momenta of the segment with their derivatives by q0 and q1.
-    pub fn legendre_derivatives(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-    ) -> LegendreDerivatives<L::Scalar, N>
-    where
-        L: ClosedForm<R, N>,
-    {
-        {
-            let segment = self.between(q0, q1);
-            let l = self.system.discrete_lagrangian_derivatives(&segment);
-            LegendreDerivatives::from_terms(&l, &self.system.discrete_force_derivatives(&segment))
-        }
     }
 
     /// Left side of the forced discrete Euler–Lagrange equation at q1, 0 along solutions:
@@ -459,18 +430,6 @@ where
         L: DiscreteRayleigh<R, N>,
     {
         self.system.discrete_rayleigh(&self.between(q0, q1))
-    }
-
-    /// R_d with D1, D2, D11, D12, D22.
-    pub fn discrete_rayleigh_derivatives(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-    ) -> Derivatives<L::Scalar, N>
-    where
-        L: DiscreteRayleigh<R, N>,
-    {
-        self.system.discrete_rayleigh_derivatives(&self.between(q0, q1))
     }
 
     /// L_d⁺ = L_d + R_d.

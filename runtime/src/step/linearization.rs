@@ -116,8 +116,7 @@ linear!(StateBy<M> { q, p });
 
 impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
     /// From the derivatives of L_d and of f_d.
-    #[must_use]
-    pub fn from_terms(l: &Derivatives<S, N>, f: &DiscreteForceDerivatives<S, N>) -> Self {
+    pub(crate) fn from_terms(l: &Derivatives<S, N>, f: &DiscreteForceDerivatives<S, N>) -> Self {
         Self {
             momenta: Momenta { p0: -l.d1 - f.minus.value, p1: l.d2 + f.plus.value },
             p0_by_q0: -l.d11 - f.minus.d1,
@@ -126,16 +125,6 @@ impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
             p1_by_q1: l.d22 + f.plus.d2,
         }
     }
-}
-
-/// A and B of a step, or of a period; M is the number of inputs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Linearization<S, const N: usize, const M: usize = 0> {
-    /// The step matrix A = ∂(q1, p1)/∂(q0, p0).
-    pub a: PhaseMatrix<S, N>,
-    /// B = ∂(q1, p1)/∂u, the input being held over the step.
-    pub b: StateBy<S, N, M>,
 }
 
 impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {

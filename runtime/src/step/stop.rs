@@ -34,8 +34,7 @@ impl<'s> Stop<'s> {
     pub const STRIDE: u64 = 64;
 
     /// Goes on to the end.
-    #[must_use]
-    pub const fn never() -> Self {
+    pub(crate) const fn never() -> Self {
         Self(None)
     }
 

@@ -20,8 +20,8 @@
 //! | D11, D12, D22 of L_d^ex; D1, D2 of f_d^ex± | third derivatives of L by differences of the second ones | 1e-12 |
 //!
 //! Each result states its own error estimates: [`ExactSegment::report`], [`SecondDerivatives::force_error`].
-//! What would be wrong by more than [`Exact::WORST`] is an error, and so is a question that takes more than
-//! [`Exact::EVALUATIONS`] evaluations of L and f.
+//! What would be wrong by more than 10⁻⁶ of the motion is an error, and so is a question that takes more than
+//! 2²² evaluations of L and f; a segment takes some thousands.
 //!
 //! ```
 //! use dalembert::exact::Exact;
@@ -110,13 +110,6 @@ where
         Self { stop, ..self }
     }
 
-    /// Evaluations of L and f, with their derivatives, that one question may take. A segment in the tests
-    /// takes some thousands.
-    pub const EVALUATIONS: usize = Work::LIMIT;
-
-    /// The largest error estimate, relative to the largest of the motion, that a result is given with.
-    pub const WORST: f64 = WORST;
-
     /// The system.
     pub fn system(&self) -> &'a L {
         self.system
@@ -125,8 +118,8 @@ where
     /// L_d^ex with its first derivatives and f_d^ex on the segment (q0, q1), with both momenta and their
     /// derivatives.
     ///
-    /// h may be negative. The motion sought is the one near the straight line; where several join q0 to q1 (a
-    /// pendulum that may turn over), [`segment_near`](Self::segment_near) chooses.
+    /// h may be negative. The motion sought is the one near the straight line, where several join q0 to q1 (a
+    /// pendulum that may turn over).
     ///
     /// # Errors
     /// An [`ExactError`]: conjugate points, no motion found, degenerate L, non-finite values, motion not
@@ -138,20 +131,6 @@ where
         h: f64,
     ) -> Result<ExactSegment<N>, ExactError> {
         self.solve(q0.into(), q1.into(), h, None)
-    }
-
-    /// As [`segment`](Self::segment), for the motion whose initial velocity is near `v0`.
-    ///
-    /// # Errors
-    /// As [`segment`](Self::segment).
-    pub fn segment_near(
-        &self,
-        q0: impl Into<SVector<f64, N>>,
-        q1: impl Into<SVector<f64, N>>,
-        h: f64,
-        v0: impl Into<SVector<f64, N>>,
-    ) -> Result<ExactSegment<N>, ExactError> {
-        self.solve(q0.into(), q1.into(), h, Some(v0.into()))
     }
 
     /// D11, D12, D22 of L_d^ex and D1, D2 of f_d^ex± on a segment.
@@ -312,7 +291,7 @@ fn require_step_size(h: f64) -> Result<(), ExactError> {
     if h.is_finite() && h != 0.0 { Ok(()) } else { Err(ExactError::StepSize { h }) }
 }
 
-/// [`Exact::WORST`].
+/// The largest error estimate, relative to the largest of the motion, that a result is given with.
 const WORST: f64 = 1e-6;
 
 /// Fails where rounding is enlarged beyond what a result may be wrong by; so does a NaN.

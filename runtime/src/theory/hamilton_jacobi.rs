@@ -93,7 +93,6 @@ pub use frame::Frame;
 pub use hamilton_equations::{HamiltonEquationsReport, PrintedAndCorrected};
 pub use hamiltonian::DiscreteHamiltonian;
 pub use jacobi_constants::JacobiConstants;
-pub use printed::{EquationValue, PairedFlow};
 pub use printed_report::PrintedReport;
 pub use residual::{Outcome, Residual};
 pub use section::{ConfigurationMap, Section};

@@ -72,8 +72,7 @@ impl<S: Scalar, const N: usize> Pair<S, N> {
     }
 
     /// This pair in `f64`.
-    #[must_use]
-    pub fn widen(&self) -> Pair<f64, N> {
+    pub(crate) fn widen(&self) -> Pair<f64, N> {
         Pair { q0: self.q0.map(Scalar::widen), q1: self.q1.map(Scalar::widen) }
     }
 }

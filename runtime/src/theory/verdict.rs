@@ -124,8 +124,7 @@ impl Tolerance {
     pub(super) const ROUNDINGS: f64 = 1024.0;
 
     /// The default for the scalar type `S`.
-    #[must_use]
-    pub fn rounding<S: Scalar>() -> f64 {
+    pub(crate) fn rounding<S: Scalar>() -> f64 {
         Self::ROUNDINGS * S::EPSILON.widen()
     }
 

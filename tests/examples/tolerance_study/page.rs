@@ -84,11 +84,11 @@ fn quantiles(mut of: Vec<f64>) -> String {
 
 const HEAD: &str = "# The error asked for
 
-What `Method::for_tolerance` promised and kept, over random motions. Written by
+What `dalembert::tolerance` promised and kept, over random motions. Written by
 `cargo study tolerance_study`; do not edit it.
 
 **Promise.** At every step of the run |δqᵢ| ≤ ε and |δpᵢ| w ≤ ε, or a breach or an error says that it is not so. ε is the tolerance, w
-weighs momenta like the coordinates that they move (`Method::for_tolerance` has the formula). The guard reports a breach
+weighs momenta like the coordinates that they move (`dalembert::tolerance` has the formula). The guard reports a breach
 where the error that it expects passes 1.35 ε.
 
 **Motions.** Families in turn, parameters, phases and times at random from the seed (`tests/src/motions`). References: closed forms in numbers of

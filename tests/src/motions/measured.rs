@@ -148,7 +148,7 @@ impl Motion {
             what,
             ask: Box::new(move |tolerance| {
                 measured(
-                    Method::for_tolerance(&asked, methods, &start, time, tolerance),
+                    asked.to_error(tolerance).among(methods).until(time).choice(&start),
                     start,
                     tolerance,
                     &of_ask,

@@ -66,7 +66,7 @@ mod num_dual {
     systems!(num_dual);
 }
 
-use dalembert::derivative::{LegendreDerivatives, PhaseMatrix, StateBy, StepHessian, StepTaken};
+use dalembert::derivative::{PhaseMatrix, StateBy, StepHessian, StepTaken};
 use dalembert::nalgebra::{DMatrix, DVector, SMatrix, SVector, matrix, vector};
 use dalembert::step::{DiscreteDriven, DiscreteSecondOrder, Linearizable};
 use dalembert::system::Function;
@@ -400,17 +400,17 @@ fn the_determinant_is_that_of_the_discrete_objects() {
     fn check<const S: usize>() {
         let (view, h) = (Swing.driven([0.7], 0.4), 0.3);
         let (q0, q1) = (vector![0.5, -0.8], vector![0.8, -0.5]);
-        let a = view.by(Gauss::<S>, h).segment(&q0, &q1).unwrap().linearized().unwrap().by_state().unwrap();
-        let k = LegendreDerivatives::from_terms(
-            &view.by(Gauss::<S>, h).segment(&q0, &q1).unwrap().discrete_lagrangian_derivatives().unwrap(),
-            &view.by(Gauss::<S>, h).segment(&q0, &q1).unwrap().discrete_force_derivatives().unwrap(),
-        );
-        let expected = k.p1_by_q0.determinant() / (-k.p0_by_q1).determinant();
+        let segment = || view.by(Gauss::<S>, h).segment(&q0, &q1).unwrap();
+        let a = segment().linearized().unwrap().by_state().unwrap();
+        let l = segment().discrete_lagrangian_derivatives().unwrap();
+        let f = segment().discrete_force_derivatives().unwrap();
+        let (p1_by_q0, p1_by_q1) = (l.d12.transpose() + f.plus.d1, l.d22 + f.plus.d2);
+        let expected = p1_by_q0.determinant() / (l.d12 + f.minus.d2).determinant();
         let determinant = a.assembled::<4>().determinant();
         assert!((determinant - expected).abs() < 1e-10, "S = {S}: {determinant} {expected}");
         // The exact blocks are those of the differences.
-        let exact = view.by(Gauss::<S>, h).segment(&q0, &q1).unwrap().legendre_derivatives().unwrap();
-        assert!((exact.p1_by_q0 - k.p1_by_q0).amax() < 1e-9 && (exact.p1_by_q1 - k.p1_by_q1).amax() < 1e-9);
+        let exact = segment().legendre_derivatives().unwrap();
+        assert!((exact.p1_by_q0 - p1_by_q0).amax() < 1e-9 && (exact.p1_by_q1 - p1_by_q1).amax() < 1e-9);
         // Positive control: friction, and a ratio upside down.
         assert!((determinant - 1.0).abs() > 0.05 && (determinant - 1.0 / expected).abs() > 0.05);
     }

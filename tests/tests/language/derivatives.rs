@@ -241,7 +241,8 @@ fn of_a_free_function() {
 fn the_comparison_sees_what_is_wrong() {
     let (q0, q1) = ([0.7], [0.4]);
     let system = Bead::EXAMPLE;
-    let generated = system.by(Midpoint, H).discrete_lagrangian_derivatives(&q0.into(), &q1.into());
+    let segment = system.by(Midpoint, H).segment(&q0.into(), &q1.into()).unwrap();
+    let generated = segment.discrete_lagrangian_derivatives().unwrap();
     let by_hand = |system: &Bead, rule| {
         derivatives(&Discretised { system, rule, h: H, part: Part::Lagrangian }, q0, q1)
     };

@@ -12,7 +12,7 @@ use dalembert::system::{
     ActingForce, Compared, CovectorDerivatives, Derivatives, Engine, ForcedLagrangian, Function,
     GeneratedDiffers, Structure,
 };
-use dalembert::tolerance::{Method, ToleranceError, WithGauss};
+use dalembert::tolerance::{OffersMethods, ToleranceError, WithGauss};
 use dalembert::{
     Composition, Discrete, Discretise, Fitted, FittedTrapezoidal, Force, Gauss, Lagrangian, Midpoint,
     Rayleigh, Splitting, State, StepError, Trajectory, Trapezoidal, rayleigh_system,
@@ -146,6 +146,10 @@ macro_rules! discrete {
 
 discrete!(Midpoint KeptMatrix, Trapezoidal ExplicitMemory);
 
+impl OffersMethods<1> for Mutated {
+    type Methods = WithGauss<Trapezoidal>;
+}
+
 impl Explicit<1> for Mutated {
     fn step_matrix(&self, h: f64) -> Matrix {
         matrix![1.0 + 0.5 * h * DAMPING]
@@ -207,7 +211,7 @@ fn at_a_start(system: &Mutated) -> Vec<Finding> {
         ("samples", named(system.by(Midpoint, H).run(START).sample_every(5).next().unwrap())),
         (
             "for a tolerance, and so its runs",
-            match Method::for_tolerance(system, WithGauss(Trapezoidal), &START, 1.0, 1e-3) {
+            match system.to_error(1e-3).until(1.0).choice(&START) {
                 Err(ToleranceError::Step(error)) => named::<()>(Err(error)),
                 _ => None,
             },

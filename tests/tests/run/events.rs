@@ -7,10 +7,10 @@ use dalembert::run::between::{Divisible, Restartable};
 use dalembert::run::events::{Crossing, Event, EventError, EventGradient, Passage, Watch, Watched};
 use dalembert::run::{HeldInput, Run};
 use dalembert::step::{Flow, Step};
-use dalembert::tolerance::{LastStep, Method, MethodStep, Methods, WithGauss, WithSplittings};
+use dalembert::tolerance::{LastStep, Method, MethodStep, Methods, OffersMethods, WithGauss, WithSplittings};
 use dalembert::{
-    Composition, Discretise, EnergyLedger, Gauss, Midpoint, Splitting, State, StepError, Trapezoidal,
-    rayleigh_system,
+    Composition, Discretise, EnergyLedger, Gauss, Lagrangian, Midpoint, Splitting, State, StepError,
+    Trapezoidal, rayleigh_system,
 };
 
 #[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
@@ -495,10 +495,10 @@ fn single_precision_has_events() {
 fn guarded_runs_have_events_and_states_between() {
     fn check<L, M>(system: &L, methods: M, tolerance: f64)
     where
-        L: dalembert::system::ActingForce<1, Scalar = f64>,
+        L: OffersMethods<1> + Lagrangian<1, Scalar = f64>,
         M: Methods<L, 1>,
     {
-        let choice = Method::for_tolerance(system, methods, &UP, 40.0, tolerance).unwrap();
+        let choice = system.to_error(tolerance).among(methods).until(40.0).choice(&UP).unwrap();
         let mut run = choice.trajectory();
         let mut quarters = 0.0;
         for event in run.watch(|at| [at.q[0], at.momentum()[0]]) {

@@ -17,7 +17,6 @@ mod lanes;
 mod midpoint_lanes;
 mod on_constraints;
 mod one_run;
-mod period;
 mod random_events;
 mod saved_runs;
 mod scaled_time;

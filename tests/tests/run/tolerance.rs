@@ -2,9 +2,10 @@
 //! run.
 
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::system::ActingForce;
-use dalembert::tolerance::{Method, MethodStep, Methods, ToleranceError, WithGauss, WithSplittings};
-use dalembert::{Discretise, Gauss, State, Trapezoidal, rayleigh_system};
+use dalembert::tolerance::{
+    Method, MethodStep, Methods, OffersMethods, ToleranceError, WithGauss, WithSplittings,
+};
+use dalembert::{Discretise, Gauss, Lagrangian, State, Trapezoidal, rayleigh_system};
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::reference;
 use dalembert_tests::systems::{Chain, DoublePendulum, Pendulum};
@@ -29,10 +30,10 @@ impl<'a, L: ByHand<N>, const N: usize> Motion<'a, L, N> {
 /// The error at the end of the choice for `tolerance` and its method; one that is passed has to be reported.
 fn reached_among<L, M, const N: usize>(motion: &Motion<'_, L, N>, methods: M, tolerance: f64) -> (f64, Method)
 where
-    L: ByHand<N> + ActingForce<N, Scalar = f64>,
+    L: ByHand<N> + OffersMethods<N> + Lagrangian<N, Scalar = f64>,
     M: Methods<L, N>,
 {
-    let choice = Method::for_tolerance(motion.system, methods, &motion.start, TIME, tolerance).unwrap();
+    let choice = motion.system.to_error(tolerance).among(methods).until(TIME).choice(&motion.start).unwrap();
     let mut run = choice.trajectory();
     let end = run.by_ref().last().unwrap().unwrap().state;
     assert!((run.time() - TIME).abs() < 1e-9 * TIME, "the run ends at {}", run.time());
@@ -72,7 +73,7 @@ fn the_whole_state_is_held_at_every_step_from_any_phase() {
     for phase in 0..25 {
         let phase = f64::from(phase) * std::f64::consts::TAU / 24.0;
         let start = State { q: [phase.cos()].into(), p: [-phase.sin()].into() };
-        let choice = Method::for_tolerance(&Oscillator {}, among, &start, time, tolerance).unwrap();
+        let choice = Oscillator {}.to_error(tolerance).among(among).until(time).choice(&start).unwrap();
         let mut run = choice.trajectory();
         while let Some(state) = run.next() {
             let (s, c) = run.time().sin_cos();
@@ -192,7 +193,7 @@ fn from_the_pericentre_the_error_asked_for_is_kept() {
         let start = State { q: [1.0 - e, 0.0].into(), p: [0.0, f].into() };
         // Three orbits, of 2π each: the end is the start.
         let time = 6.0 * std::f64::consts::PI;
-        let choice = Method::for_tolerance(&Planet {}, among, &start, time, tolerance).unwrap();
+        let choice = Planet {}.to_error(tolerance).among(among).until(time).choice(&start).unwrap();
         let mut run = choice.trajectory();
         let end = run.by_ref().last().unwrap().unwrap().state;
         let error = (end.q - start.q).amax();
@@ -290,7 +291,7 @@ fn a_choice_says_why_and_keeps_the_step() {
     let system = Pendulum::EXAMPLE;
     let start = State::from_velocity(&system, [1.9], [-0.7]).unwrap();
     let among = WithGauss(WithSplittings(Trapezoidal));
-    let choice = Method::for_tolerance(&system, among, &start, 1600.0, 1e-9).unwrap();
+    let choice = system.to_error(1e-9).among(among).until(1600.0).choice(&start).unwrap();
     // Of the methods tried, in their order, the cheapest that reaches the error.
     let trials: Vec<_> = choice.trials().copied().collect();
     let place = |method| Method::ALL.iter().position(|&of| of == method).unwrap();
@@ -317,7 +318,7 @@ fn choosing_costs_a_tenth_of_a_long_run_and_the_guard_as_much() {
     let all = [1e-3, 1e-7, 1e-5, 1e-9];
     for &tolerance in &all[..if cfg!(debug_assertions) { 2 } else { 4 }] {
         let among = WithSplittings(Trapezoidal);
-        let choice = Method::for_tolerance(&Oscillator {}, among, &start, 4000.0, tolerance).unwrap();
+        let choice = Oscillator {}.to_error(tolerance).among(among).until(4000.0).choice(&start).unwrap();
         let mut run = choice.trajectory();
         assert!(run.by_ref().all(|state| state.is_ok()) && run.breach().is_none(), "{choice}");
         let (steps, looks) = run.evaluations();
@@ -330,7 +331,7 @@ fn choosing_costs_a_tenth_of_a_long_run_and_the_guard_as_much() {
 fn steps_are_not_bound_to_a_share_of_the_time() {
     let start = State { q: [1.0].into(), p: [0.0].into() };
     let among = WithGauss(WithSplittings(Trapezoidal));
-    let choice = Method::for_tolerance(&Oscillator {}, among, &start, 6.0, 1e-6).unwrap();
+    let choice = Oscillator {}.to_error(1e-6).among(among).until(6.0).choice(&start).unwrap();
     assert!(choice.steps() < 20, "{choice}");
 }
 
@@ -347,7 +348,7 @@ where
     let run = |k| {
         let system = Bumper { k };
         let start = State::from_velocity(&system, [-4.0], [1.0]).unwrap();
-        let choice = Method::for_tolerance(&system, among, &start, 8.0, tolerance).unwrap();
+        let choice = system.to_error(tolerance).among(among).until(8.0).choice(&start).unwrap();
         let mut run = choice.trajectory();
         // The impact may also end the run.
         let failed = !run.by_ref().all(|state| state.is_ok());
@@ -377,7 +378,7 @@ fn the_guard_reports_what_the_start_did_not_show() {
 fn what_cannot_be_had_is_refused() {
     let system = Pendulum::EXAMPLE;
     let start = State::from_velocity(&system, [1.9], [-0.7]).unwrap();
-    let ask = |time, tolerance| Method::for_tolerance(&system, Trapezoidal, &start, time, tolerance);
+    let ask = |time, tolerance| system.to_error(tolerance).among(Trapezoidal).until(time).choice(&start);
     assert!(matches!(ask(16.0, 0.0), Err(ToleranceError::Request { .. })));
     assert!(matches!(ask(f64::NAN, 1e-3), Err(ToleranceError::Request { .. })));
     let error = ask(16.0, 1e-17).unwrap_err();

@@ -83,13 +83,15 @@ pub fn check(shell: &Shell) -> Result<Vec<String>> {
     if names.len() > MOST {
         found.push(format!("runtime/src/lib.rs: {} public names, and {MOST} may be: {names:?}", names.len()));
     }
-    found.extend(unnamed(shell)?);
-    found.extend(shared(&project::sources(project::root(), &project::root().join("runtime/src"))?)?);
+    let sources = project::sources(project::root(), &project::root().join("runtime/src"))?;
+    found.extend(unnamed(shell, &sources)?);
+    found.extend(shared(&sources)?);
     Ok(found)
 }
 
-/// Names that floors and topics show, and no example, page, test or macro names; of `generated`, no macro.
-fn unnamed(shell: &Shell) -> Result<Vec<String>> {
+/// Names that floors and topics show, and no example, page, test or macro names; of `generated`, no macro; of
+/// what types have, no binding either.
+fn unnamed(shell: &Shell, sources: &[(String, String)]) -> Result<Vec<String>> {
     let mut files = project::files(shell, ".rs")?;
     let of_macros = words(&files, &["macros/src"], &["tests"])?;
     files.extend(project::files(shell, ".md")?);
@@ -116,14 +118,32 @@ fn unnamed(shell: &Shell) -> Result<Vec<String>> {
             missing(&names, words).iter().map(|name| format!("runtime/src/{file}: nobody names {name}")),
         );
     }
+    // A binding has types of the same names.
+    let of_bindings = words(&files, &["bindings"], &[])?;
+    let is_named = |name: &String| of_users.contains(name) || of_bindings.contains(name);
+    for (path, text) in sources {
+        found.extend(
+            members(text).filter(|name| !is_named(name)).map(|name| format!("{path}: nobody names {name}")),
+        );
+    }
     Ok(found)
 }
 
 /// The types that a source declares for all.
 fn types(source: &str) -> impl Iterator<Item = String> {
-    source.lines().filter_map(|line| {
-        let rest = line.strip_prefix("pub ")?;
-        let kind = ["struct ", "enum ", "trait ", "type "].into_iter().find(|kind| rest.starts_with(kind))?;
+    declared(source, "pub ", &["struct ", "enum ", "trait ", "type "])
+}
+
+/// The functions and constants of types that a source declares for all.
+fn members(source: &str) -> impl Iterator<Item = String> {
+    declared(source, "    pub ", &["fn ", "const fn ", "const "])
+}
+
+/// The names behind one of these kinds, on lines that begin so.
+fn declared(source: &str, begin: &str, kinds: &[&str]) -> impl Iterator<Item = String> {
+    source.lines().filter_map(move |line| {
+        let rest = line.strip_prefix(begin)?;
+        let kind = kinds.iter().find(|kind| rest.starts_with(**kind))?;
         Some(rest[kind.len()..].split(|c: char| !c.is_alphanumeric() && c != '_').next()?.to_owned())
     })
 }
@@ -165,6 +185,15 @@ mod tests {
         let names = BTreeSet::from(["Midpoint", "NamedByNobody"].map(String::from));
         let named = BTreeSet::from(["Midpoint", "Trapezoidal"].map(String::from));
         assert_eq!(missing(&names, &named), ["NamedByNobody"]);
+    }
+
+    #[test]
+    fn a_member_that_nobody_names_is_seen() {
+        let source = "impl A {\n    pub const fn named_by_no_one() {}\n    pub fn linearized<T>() {}\n    pub B: f64,\n    \
+                      pub(crate) fn c() {}\n    pub const NAMED_BY_NO_ONE: f64 = 0.0;\n    fn d() {}\n}";
+        let found = unnamed(&project::shell().unwrap(), &[("a.rs".to_owned(), source.to_owned())]).unwrap();
+        let unnamed = ["named_by_no_one", "NAMED_BY_NO_ONE"].map(|name| format!("a.rs: nobody names {name}"));
+        assert_eq!(found, unnamed);
     }
 
     #[test]

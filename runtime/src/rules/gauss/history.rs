@@ -56,12 +56,6 @@ impl<T: Scalar, const N: usize, const S: usize> Default for StageHistory<T, N, S
 }
 
 impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
-    /// The exact sums of `q` and `p` less the last state, in units of the state. The state with these added
-    /// is known to twice the digits.
-    pub fn rests(&self) -> (SVector<T, N>, SVector<T, N>) {
-        (self.q.rest, self.p.rest)
-    }
-
     /// The last two coefficients, of all coordinates the largest, of the velocity over the last step in
     /// Legendre polynomials: what is left of a smooth motion, and where it is not smooth, of its kinks.
     pub(crate) fn unresolved(&self) -> [f64; 2] {

@@ -245,8 +245,7 @@ where
         self.guard.segment.step_size()
     }
 
-    /// The error expected of the state, in the norm of the promise
-    /// ([`Method::for_tolerance`](super::Method::for_tolerance)); NaN where the guard is off
+    /// The error expected of the state, in the norm of [the promise](super); NaN where the guard is off
     /// ([`Choice::unguarded`]).
     pub fn expected(&self) -> f64 {
         if !self.guard.is_on {

@@ -7,8 +7,8 @@ use crate::run::{Composition, Explicit, Splitting};
 use crate::step::{Border, Flow, Fused, LinearizedStep, Memory, State, Step, StepError};
 use crate::system::{ActingForce, ForcedLagrangian, Lagrangian};
 
-/// The methods that a system offers to [`Method::for_tolerance`]: a rule of order 2 stands for itself and its
-/// compositions; [`WithSplittings`] and [`WithGauss`] add to those of another.
+/// The methods that a choice is among: a rule of order 2 stands for itself and its compositions;
+/// [`WithSplittings`] and [`WithGauss`] add to those of another.
 pub trait Methods<L: ActingForce<N>, const N: usize>: Copy {
     /// A step by any of the methods.
     type Step: MethodStep<L, N>;

@@ -62,7 +62,7 @@ pub enum ExactError {
         difference: f64,
     },
     /// Neither end of the motion tells the other: rounding of one is enlarged beyond
-    /// [`Exact::WORST`](super::Exact::WORST), as by damping seen backwards, which grows like e^{r|h|/m},
+    /// 10⁻⁶ of the motion, as by damping seen backwards, which grows like e^{r|h|/m},
     /// or by an unstable equilibrium, like e^{√(k/m)|h|}.
     IllConditioned {
         /// The step size.
@@ -70,8 +70,7 @@ pub enum ExactError {
         /// The error from one rounding, relative to the largest of the motion.
         error: f64,
     },
-    /// All evaluations of L and f that one question may take
-    /// ([`Exact::EVALUATIONS`](super::Exact::EVALUATIONS)) are spent.
+    /// All evaluations of L and f that one question may take, 2²², are spent.
     TooMuchWork {
         /// Evaluations made.
         evaluations: usize,

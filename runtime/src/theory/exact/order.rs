@@ -136,7 +136,7 @@ where
         L: Discrete<R, N>,
     {
         let q1 = q0 + v * h;
-        let exact = self.segment_near(*q0, q1, h, *v)?;
+        let exact = self.solve(*q0, q1, h, Some(*v))?;
         let by = Discretised::<L, R, N>::new(self.system(), h);
         // By these very ends: q1 is rounded.
         let (mean, objects) = ((q1 - q0) / h, by.objects(q0, &q1));

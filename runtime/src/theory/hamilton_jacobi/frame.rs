@@ -3,9 +3,11 @@
 use nalgebra::SMatrix;
 
 use crate::numbers::Scalar;
-use crate::step::{PhaseMatrix, invert};
+use crate::step::PhaseMatrix;
 
 /// The tangent frame (Q, P) of a carried section: derivatives of (q_k, p_k) by the label, each N×N.
+///
+/// QᵀP − PᵀQ is 0 where the carried section is closed, and Dγ_k = P Q⁻¹ but on a caustic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame<S, const N: usize> {
     /// Q = ∂q_k/∂x.
@@ -15,18 +17,6 @@ pub struct Frame<S, const N: usize> {
 }
 
 impl<S: Scalar, const N: usize> Frame<S, N> {
-    /// QᵀP − PᵀQ, 0 iff the carried section is closed there. No division, so that caustics do not matter.
-    #[must_use]
-    pub fn closedness_defect(&self) -> SMatrix<S, N, N> {
-        self.q.tr_mul(&self.p) - self.p.tr_mul(&self.q)
-    }
-
-    /// Dγ_k = P Q⁻¹; `None` on a caustic, where γ_k is no section.
-    #[must_use]
-    pub fn section_jacobian(&self) -> Option<SMatrix<S, N, N>> {
-        Some(self.p * invert(&self.q).ok()?)
-    }
-
     /// The coordinate whose row of Q or P is not finite.
     pub(super) fn first_non_finite(&self) -> Option<usize> {
         let finite =

@@ -72,7 +72,7 @@ where
     ///
     /// # Errors
     /// [`HamiltonJacobiError::Implicit`] where it has no solution in reach of q + h `guess`.
-    pub fn right_characteristic<F: ScalarField<N, Scalar = S>>(
+    pub(super) fn right_characteristic<F: ScalarField<N, Scalar = S>>(
         &self,
         s1: &F,
         q: &SVector<S, N>,

@@ -12,20 +12,20 @@ use crate::system::ScalarField;
 
 /// The image of (q_{j−1}, q_j) under F̃_d^H ∘ γ, a point of T*(Q×Q): its two halves.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PairedFlow<S, const N: usize> {
+pub(super) struct PairedFlow<S, const N: usize> {
     /// F_d^H(γ⁻(q_{j−1}, q_j)); its configuration is (F_d^H)^{γ⁻}(q_{j−1}, q_j).
-    pub minus: State<S, N>,
+    pub(super) minus: State<S, N>,
     /// F_d^H(γ⁺(q_{j−1}, q_j)); its configuration is (F_d^H)^{γ⁺}(q_{j−1}, q_j).
-    pub plus: State<S, N>,
+    pub(super) plus: State<S, N>,
 }
 
 /// The left side of a Hamilton–Jacobi equation, 0 where it holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EquationValue<S> {
+pub(super) struct EquationValue<S> {
     /// The left side.
-    pub value: S,
+    pub(super) value: S,
     /// The sum of the sizes of its terms.
-    pub magnitude: S,
+    pub(super) magnitude: S,
 }
 
 impl<S, L, R, const N: usize> HamiltonJacobi<'_, L, R, N>
@@ -51,7 +51,7 @@ where
     ///
     /// # Errors
     /// [`HamiltonJacobiError::Implicit`] if the step from one of the momenta has no solution.
-    pub fn paired_flow<F: ScalarField<N, Scalar = S>>(
+    pub(super) fn paired_flow<F: ScalarField<N, Scalar = S>>(
         &self,
         s0: &F,
         s1: &F,
@@ -74,7 +74,7 @@ where
     ///
     /// # Errors
     /// Those of [`discrete_hamiltonian_plus`](Self::discrete_hamiltonian_plus).
-    pub fn right_equation<F: ScalarField<N, Scalar = S>>(
+    pub(super) fn right_equation<F: ScalarField<N, Scalar = S>>(
         &self,
         s0: &F,
         s1: &F,
@@ -99,7 +99,7 @@ where
     ///
     /// # Errors
     /// Those of [`discrete_hamiltonian_minus`](Self::discrete_hamiltonian_minus).
-    pub fn left_equation<F: ScalarField<N, Scalar = S>>(
+    pub(super) fn left_equation<F: ScalarField<N, Scalar = S>>(
         &self,
         s0: &F,
         s1: &F,
@@ -120,7 +120,7 @@ where
     /// eliminated from H_d^±. It holds no γ at all, so that along one trajectory it is the recursion that
     /// defines the discrete action.
     #[must_use]
-    pub fn action_increment<F: ScalarField<N, Scalar = S>>(
+    pub(super) fn action_increment<F: ScalarField<N, Scalar = S>>(
         &self,
         s0: &F,
         s1: &F,
@@ -139,7 +139,7 @@ where
     ///
     /// # Errors
     /// [`HamiltonJacobiError::Implicit`] if 𝔽⁺(q_{j−1}, q_j) = (q_j, γ⁻) has no solution in reach.
-    pub fn backward_flow<F: ScalarField<N, Scalar = S>>(
+    pub(super) fn backward_flow<F: ScalarField<N, Scalar = S>>(
         &self,
         s0: &F,
         s1: &F,

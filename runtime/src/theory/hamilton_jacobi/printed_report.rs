@@ -5,8 +5,9 @@ use core::fmt;
 use nalgebra::SVector;
 
 use super::lemma::Definition;
+use super::printed::EquationValue;
 use super::residual::{MomentumMagnitudes, Outcome, Worst, line, tolerance_line};
-use super::{EquationValue, HamiltonJacobi, HamiltonJacobiError, section};
+use super::{HamiltonJacobi, HamiltonJacobiError, section};
 use crate::numbers::Scalar;
 use crate::step::{Discrete, invert};
 use crate::system::ScalarField;

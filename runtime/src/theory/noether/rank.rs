@@ -43,8 +43,7 @@ impl RankDecision {
     }
 
     /// Angle by which rounding may have turned the null space: threshold over smallest singular value kept.
-    #[must_use]
-    pub fn uncertainty(&self) -> f64 {
+    pub(super) fn uncertainty(&self) -> f64 {
         self.threshold / self.smallest_kept()
     }
 

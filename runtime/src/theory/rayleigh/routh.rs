@@ -248,8 +248,7 @@ where
     }
 
     /// The state of the whole system at θ.
-    #[must_use]
-    pub fn reconstruct(&self, reduced: &ReducedState<L::Scalar, K>, theta: L::Scalar) -> State<L::Scalar, N> {
+    fn reconstruct(&self, reduced: &ReducedState<L::Scalar, K>, theta: L::Scalar) -> State<L::Scalar, N> {
         State {
             q: with(&reduced.shape.q, theta, self.cyclic),
             p: with(&reduced.shape.p, reduced.momentum, self.cyclic),

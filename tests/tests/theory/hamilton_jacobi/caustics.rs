@@ -95,7 +95,8 @@ fn carried(system: &Plane) -> Characteristic<f64, 2> {
 /// Focal points in (k, k + 1] by discrete Sturm theory: negative eigenvalues of Q_kᵀ (∂p0/∂q1) Q_{k+1}.
 fn focal_points(system: &Plane, characteristic: &Characteristic<f64, 2>, k: usize) -> usize {
     let [from, to] = [characteristic.states[k].q, characteristic.states[k + 1].q];
-    let newton = system.by(Midpoint, H).legendre_derivatives(&from, &to).p0_by_q1;
+    let segment = system.by(Midpoint, H).segment(&from, &to).unwrap();
+    let newton = segment.legendre_derivatives().unwrap().p0_by_q1;
     let form = characteristic.frames[k].q.transpose() * newton * characteristic.frames[k + 1].q;
     assert!((form - form.transpose()).amax() < 1e-12);
     form.symmetric_eigenvalues().iter().filter(|value| **value < 0.0).count()

@@ -70,7 +70,7 @@ where
         .iter()
         .zip(&carried.states)
         .map(|(frame, state)| {
-            let matrix = frame.section_jacobian().unwrap();
+            let matrix = frame.p * frame.q.try_inverse().unwrap();
             Affine { matrix, shift: state.p - matrix * state.q }
         })
         .collect();
