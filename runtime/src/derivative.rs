@@ -4,5 +4,5 @@
 
 mod certificate;
 
-pub use crate::step::{LegendreDerivatives, PhaseMatrix, StateBy, StepHessian, StepTaken};
+pub use crate::step::{LegendreDerivatives, Linearization, PhaseMatrix, StateBy, StepHessian, StepTaken};
 pub use certificate::Certificate;

@@ -31,7 +31,7 @@ pub use composition::Composition;
 pub use discretise::Discretise;
 pub use driven::DrivenTrajectory;
 pub(crate) use driven::TakenUntil;
-pub use held_input::HeldInput;
+pub use held_input::{Carried, HeldInput, InPeriod, Period, Sensitivities};
 pub use lanes::ExplicitInLanes;
 pub use memory::{DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, VelocityHistory};
 pub use sample::{Run, Sample, Samples};

@@ -65,7 +65,7 @@ pub(crate) use in_lanes::{Ends, KeptOf, LaneRuns, MemoryInLanes};
 pub use kernel::{Momenta, MomentaBy, StepKernel};
 pub use linearizable::Linearizable;
 pub(crate) use linearization::invert;
-pub use linearization::{LegendreDerivatives, PhaseMatrix, StateBy};
+pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix, StateBy};
 pub(crate) use linearized_segment::{LinearizedSegment, step_matrix};
 pub(crate) use outcome::EquationAt;
 pub use outcome::{BoundedStep, LinearizedStep, Report, Step};

@@ -155,8 +155,14 @@ impl<T: Divisible<N> + ?Sized, const N: usize> Dense<'_, T, N> {
         let now = self.run.time();
         match self.start {
             Some(start) if start.time.min(now) <= time && time <= start.time.max(now) => Ok(start),
-            start => Err(TimeError::Outside { time, from: start.map_or(now, |start| start.time), to: now }),
+            _ => Err(self.outside(time)),
         }
+    }
+
+    /// The error of a time that is not one of the last step.
+    pub(super) fn outside(&self, time: f64) -> TimeError {
+        let now = self.run.time();
+        TimeError::Outside { time, from: self.start.map_or(now, |start| start.time), to: now }
     }
 
     /// The system.

@@ -264,7 +264,7 @@ where
     /// Ends the watch with `error`; a step from `time` that cannot be watched is not taken, where the run can
     /// go back.
     #[cold]
-    fn refuse(&mut self, mut error: EventError, time: f64) -> EventError {
+    pub(super) fn refuse(&mut self, mut error: EventError, time: f64) -> EventError {
         self.ended = true;
         // What was found of other functions before the error was met.
         (self.found, self.step) = ([None; ROOTS], None);
@@ -280,11 +280,43 @@ where
         error
     }
 
+    /// Takes a step, and keeps it beside its events until it is reported; `None` where the run has ended.
+    pub(super) fn look(&mut self) -> Option<Result<Step<T::Scalar, N>, EventError>> {
+        match self.take_or_end()? {
+            Ok(taken) => {
+                self.step = taken.or(self.step);
+                self.step.map(Ok)
+            }
+            Err(error) => Some(Err(error)),
+        }
+    }
+
+    /// The time of the next event of the step that was taken, and whether it ends the run.
+    pub(super) fn pending(&self) -> Option<(f64, bool)> {
+        let found = self.found.get(self.next)?.as_ref()?;
+        Some((found.time, self.terminal.get(found.index).copied().unwrap_or(false)))
+    }
+
+    /// Takes the step that was kept beside its events.
+    pub(super) fn take_kept(&mut self) -> Option<Step<T::Scalar, N>> {
+        self.step.take()
+    }
+
+    /// The run as it can be looked into.
+    pub(super) fn dense(&self) -> &Dense<'t, T, N> {
+        &self.dense
+    }
+
     #[cold]
     #[inline(never)]
     fn advance_to_found(&mut self) -> Option<Result<Watched<T::Scalar, N>, EventError>> {
+        self.advance_to_event().map(|event| event.map(Watched::Event))
+    }
+
+    /// The next event of the step that was taken.
+    pub(super) fn advance_to_event(&mut self) -> Option<Result<Event<T::Scalar, N>, EventError>> {
         let found = self.found.get(self.next).copied().flatten()?;
-        Some(self.report(&found).map(Watched::Event))
+        Some(self.report(&found))
     }
 
     /// Whether events of the last step wait to be reported.

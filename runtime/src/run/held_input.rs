@@ -1,11 +1,15 @@
 //! A run with inputs while one of them is held.
 
+mod period;
+
 use crate::numbers::Scalar;
 use crate::run::between::{Dense, Divisible, LastStep, Moment, Restartable, SampledAt, Until};
 use crate::run::events::Watch;
 use crate::run::present::at_present;
 use crate::run::{DrivenTrajectory, Run, TakenUntil};
 use crate::step::{Flow, Memory, State, Step, StepError};
+
+pub use period::{Carried, InPeriod, Period, Sensitivities};
 
 /// Steps with one input.
 impl<V, M, const N: usize> DrivenTrajectory<V, M, N>

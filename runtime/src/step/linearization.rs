@@ -127,6 +127,16 @@ impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
     }
 }
 
+/// A and B of a step, or of a period; M is the number of inputs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Linearization<S, const N: usize, const M: usize = 0> {
+    /// The step matrix A = ∂(q1, p1)/∂(q0, p0).
+    pub a: PhaseMatrix<S, N>,
+    /// B = ∂(q1, p1)/∂u, the input being held over the step.
+    pub b: StateBy<S, N, M>,
+}
+
 impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
     /// The step matrix A = ∂(q1, p1)/∂(q0, p0).
     ///

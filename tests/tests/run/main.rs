@@ -17,6 +17,7 @@ mod lanes;
 mod midpoint_lanes;
 mod on_constraints;
 mod one_run;
+mod period;
 mod random_events;
 mod saved_runs;
 mod scaled_time;

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use crate::run::between::TimeError;
 use crate::step::StepError;
 
 /// Why a run could not be watched any further. The run stands where the step began that could not be watched,
@@ -35,6 +36,15 @@ pub enum EventError {
         /// Which function.
         index: usize,
         /// The start of the step.
+        time: f64,
+    },
+    /// There is no state at a time that was asked for.
+    Time(TimeError),
+    /// The derivatives of a control period end at the event from which the run went on.
+    Restarted {
+        /// Which function.
+        index: usize,
+        /// The time of the event.
         time: f64,
     },
     /// The function has no slope along the motion: the event's time has no derivative.
@@ -82,6 +92,12 @@ impl fmt::Display for EventError {
                 "event function {index} cannot be followed in the step from {time}: give a smooth one that does \
                  not stay at 0, or shorten the step"
             ),
+            Self::Time(error) => error.fmt(f),
+            Self::Restarted { index, time } => write!(
+                f,
+                "event function {index} ended the motion at {time}: the period has no derivatives beyond, which are those \
+                 of the event and of the motion from there"
+            ),
             Self::Tangent { index, time } => write!(
                 f,
                 "event function {index} has no slope along the motion at {time}: the time of the event has no \
@@ -97,6 +113,7 @@ impl core::error::Error for EventError {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
             Self::Step(error) => Some(error),
+            Self::Time(error) => Some(error),
             _ => None,
         }
     }
