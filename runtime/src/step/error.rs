@@ -100,6 +100,15 @@ pub enum StepError {
         /// The constraint k, from 0, as far as it is known.
         constraint: usize,
     },
+    /// A step that is asked about, as for its [`reactions`](crate::Discretised::reactions), does not lead from
+    /// the state given by the step size of the question: it was taken with another one, or from another state.
+    OtherStep {
+        /// The step size of the question.
+        h: f64,
+        /// (q1 − q0)/v̄ of the coordinate that is farthest off: the step size of the step, if it was taken
+        /// from the state given.
+        taken: f64,
+    },
     /// No velocity in reach has this momentum: ∂L/∂v(q, v) = p, which no step size enters.
     NoVelocity {
         /// Largest residual p − ∂L/∂v.
@@ -267,6 +276,12 @@ impl fmt::Display for StepError {
                 f,
                 "the gradients of the constraints are dependent at constraint {constraint}, and the constraints contradict \
                  one another there: a singular configuration; start away from it, or take another coordinate there"
+            ),
+            Self::OtherStep { h, taken } => write!(
+                f,
+                "the step asked about is not that of the state given by h = {h}: from there its mean velocity takes {taken} \
+                 to its end; give the state that it was taken from, and ask the system with the step size that it was \
+                 taken with"
             ),
             Self::NoVelocity { residual } => write!(
                 f,

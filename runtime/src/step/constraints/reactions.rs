@@ -46,6 +46,7 @@ where
     /// ```
     ///
     /// # Errors
+    /// [`StepError::OtherStep`] where the step was not taken from `state` by this step size,
     /// [`StepError::DependentConstraints`] where the constraints do not determine λ,
     /// [`StepError::OffConstraint`] of a state that is off one.
     pub fn reactions<const M: usize>(
@@ -58,8 +59,30 @@ where
     {
         require_step_size(self.h)?;
         let segment = Segment { q0: state.q, v: step.velocity, h: self.h };
+        if let Some(taken) = taken_otherwise(&segment, &step.state.q) {
+            return Err(StepError::OtherStep { h: self.h.widen(), taken: taken.widen() });
+        }
         let kappa = OnConstraints::<L, R, N, M>::new(self.system, state)?.multipliers(&segment);
         let kappa = kappa.ok_or_else(|| dependence::<L, N, M>(self.system, &state.q))?;
         Ok(kappa * (L::Scalar::constant(2.0) / self.h))
     }
+}
+
+/// Roundings of the terms of q0 + h v̄ within which q1 is the end: where a step is read back, v̄ may be
+/// (q1 − q0)/h.
+const ROUNDINGS: f64 = 4.0;
+
+/// The step size by which v̄ leads from q0 to `q1` in the coordinate that is farthest off, where rounding
+/// does not explain that `q1` is another end than that of the segment.
+fn taken_otherwise<S: Scalar, const N: usize>(segment: &Segment<S, N>, q1: &SVector<S, N>) -> Option<S> {
+    let Segment { q0, v, h } = segment;
+    let (mut farthest, mut taken) = (S::zero(), None);
+    for ((q0, q1), v) in q0.as_slice().iter().zip(q1.as_slice()).zip(v.as_slice()) {
+        let (way, off) = (*v * *h, (*q1 - (*q0 + *v * *h)).abs());
+        let most = (q0.abs() + way.abs()) * (S::EPSILON * S::constant(ROUNDINGS));
+        if off > most && off > farthest {
+            (farthest, taken) = (off, Some((*q1 - *q0) / *v));
+        }
+    }
+    taken
 }
