@@ -29,6 +29,7 @@ mod linearized;
 mod nearest;
 mod reactions;
 mod rows;
+mod undefined;
 
 use nalgebra::{SMatrix, SVector};
 
@@ -85,7 +86,7 @@ where
         factored: &impl Factored<L::Scalar, N>,
     ) -> Option<Self::Underway> {
         let (values, gradients) = system.constraint_gradients(&guess.q0);
-        require_on(&values, &gradients, &guess.q0).ok()?;
+        require_on(system, (&values, &gradients), &guess.q0).ok()?;
         Bordered::of(system, guess, gradients.transpose(), factored)
     }
 

@@ -51,13 +51,14 @@ pub enum StepError {
         /// Its coordinate.
         index: usize,
     },
-    /// A derivative of L, R or f is NaN or infinite at a point where the step evaluated it
-    /// ([`Lagrangian::without_derivative`](crate::Lagrangian::without_derivative)). Without the standard
-    /// library the error is [`NonFinite`](Self::NonFinite) in its place.
+    /// A derivative of L, R, f or a constraint, or a constraint itself, is NaN or infinite at a point where
+    /// the step evaluated it ([`Lagrangian::without_derivative`](crate::Lagrangian::without_derivative),
+    /// [`Lagrangian::violation`](crate::Lagrangian::violation)). Without the standard library the error of L,
+    /// R and f is [`NonFinite`](Self::NonFinite) in its place.
     NoDerivative {
         /// Which function.
         function: Function,
-        /// The coordinate i of the derivative by qᵢ or vᵢ.
+        /// The coordinate i of the derivative by qᵢ or vᵢ; of no meaning where a value alone is none.
         coordinate: usize,
         /// The operation that has no derivative there, where it is known.
         place: Option<Place>,
@@ -201,6 +202,9 @@ impl From<GeneratedDiffers> for StepError {
 impl From<Violation> for StepError {
     fn from(violation: Violation) -> Self {
         match violation {
+            Violation::NoDerivative { constraint: index, coordinate } => {
+                Self::NoDerivative { function: Function::Constraint { index }, coordinate, place: None }
+            }
             Violation::Off { constraint, value } => Self::OffConstraint { constraint, value },
             Violation::Leaving { constraint, rate } => Self::LeavesConstraint { constraint, rate },
         }
@@ -319,8 +323,8 @@ fn non_finite(f: &mut fmt::Formatter<'_>, quantity: Quantity, index: usize) -> f
     match quantity {
         Quantity::Derivatives => write!(
             f,
-            "a derivative of L, R or f by coordinate {index} is NaN or infinite; look first at the fields of the system \
-             and its input: one may be NaN, infinite or too large; then at L, R and f: √s has no derivative at s = 0 \
+            "a derivative of L, R, f or a constraint by coordinate {index} is NaN or infinite; look first at the fields of \
+             the system and its input: one may be NaN, infinite or too large; then at these functions: √s has no derivative at s = 0 \
              (√(s + ε²) has), a power below 1 and a logarithm have none at 0; if theirs are finite at the state \
              given, the step leaves the region where they are: try a smaller step"
         ),
@@ -332,7 +336,7 @@ fn non_finite(f: &mut fmt::Formatter<'_>, quantity: Quantity, index: usize) -> f
             f.write_str("the time given is NaN or infinite; give the time that the step starts at")
         }
         Quantity::Field { name } => {
-            write!(f, "`{name}` of the system is NaN, and L, R or f compute with it; give it a number")
+            write!(f, "`{name}` of the system is NaN, and its functions compute with it; give it a number")
         }
         Quantity::Configuration | Quantity::Velocity | Quantity::Momentum => {
             write!(f, "the {quantity} given is NaN or infinite in coordinate {index}; give finite numbers")

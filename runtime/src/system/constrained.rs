@@ -125,11 +125,14 @@ where
     L: Constrained<N, M> + ?Sized,
 {
     let (values, gradients) = system.constraint_gradients(q);
+    let ((rates, _), (drift, _)) =
+        (system.constraint_rates(q, v), system.constraint_rates(q, &nalgebra::zero()));
+    if let Some(lost) = lost(&values, &gradients).or_else(|| lost(&rates, &gradients)) {
+        return Some(lost);
+    }
     if let Some((constraint, value)) = off(&values, &gradients, q) {
         return Some(Violation::Off { constraint, value: value.widen() });
     }
-    let ((rates, _), (drift, _)) =
-        (system.constraint_rates(q, v), system.constraint_rates(q, &nalgebra::zero()));
     let sizes = sizes(&gradients, v) + drift.abs();
     let rounded = rates.as_slice().iter().zip(sizes.as_slice());
     for (constraint, (rate, size)) in rounded.enumerate() {
@@ -154,7 +157,17 @@ where
     Normals::of(rows.zip(values.iter().copied()).take(M - L::OF_VELOCITY.min(M)))
 }
 
-/// The first constraint whose value at q rounding does not explain, with the value.
+/// The first constraint with a value or a derivative by a coordinate that is NaN or infinite.
+#[cold]
+pub(crate) fn lost<S: Scalar, const N: usize, const M: usize>(
+    values: &SVector<S, M>,
+    by_one: &SMatrix<S, M, N>,
+) -> Option<Violation> {
+    let found = S::component_lost(values.as_slice(), [by_one.as_slice(), by_one.as_slice()]);
+    found.map(|(constraint, coordinate)| Violation::NoDerivative { constraint, coordinate })
+}
+
+/// The first constraint whose value at q rounding does not explain, or is not known to, with the value.
 pub(crate) fn off<S: Scalar, const N: usize, const M: usize>(
     values: &SVector<S, M>,
     gradients: &SMatrix<S, M, N>,
@@ -166,10 +179,10 @@ pub(crate) fn off<S: Scalar, const N: usize, const M: usize>(
     rounded.find(|(_, (value, size))| exceeds(**value, **size)).map(|(k, (value, _))| (k, *value))
 }
 
-/// Whether rounding of terms of this size does not explain the amount.
+/// Whether rounding of terms of this size does not explain the amount, or one of the two is no number.
 fn exceeds<S: Scalar>(amount: S, size: S) -> bool {
     let most = size * (S::EPSILON * S::constant(ROUNDINGS));
-    amount.abs() > most || !amount.is_finite()
+    amount.abs() > most || !amount.is_finite() || !most.is_finite()
 }
 
 /// Σⱼ |Gₖⱼ||xⱼ| for each constraint k.
