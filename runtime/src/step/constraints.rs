@@ -45,7 +45,8 @@ use equation::OnConstraints;
 pub use linearized::Linearized;
 use nearest::{held, require_on};
 
-/// M constraints, [`Constrained`]: the border of a step on N = g⁻¹(0), along the constraints of velocity.
+/// The border of a system with M constraints, [`Constrained`]: steps stay on N = g⁻¹(0), and satisfy those of
+/// velocity.
 #[derive(Clone, Copy, Debug)]
 pub struct Constraints<const M: usize>;
 

@@ -92,17 +92,19 @@ pub enum StepError {
     LeavesConstraint {
         /// The constraint k, from 0.
         constraint: usize,
-        /// ∂gₖ/∂q·v.
+        /// ∂gₖ/∂q·v + ∂gₖ/∂t, or ψₖ(q, v) of a constraint of velocity.
         rate: f64,
     },
     /// The gradient of a constraint depends on those of the others and the constraints are not redundant: the
-    /// configuration is singular, as a four-bar linkage is where all bars lie on a line.
+    /// configuration is singular, as a four-bar linkage is where all bars lie on a line. Or, of
+    /// [`State::nearest`](crate::State::nearest), no configuration in reach is on all constraints.
     DependentConstraints {
         /// The constraint k, from 0, as far as it is known.
         constraint: usize,
     },
-    /// A step that is asked about, as for its [`reactions`](crate::Discretised::reactions), does not lead from
-    /// the state given by the step size of the question: it was taken with another one, or from another state.
+    /// A step that is asked about, as for its [`reactions`](crate::Discretised::reactions), does not lead
+    /// from the state given by the step size of the question: it was taken with another one, or from another
+    /// state.
     OtherStep {
         /// The step size of the question.
         h: f64,
@@ -278,8 +280,8 @@ impl fmt::Display for StepError {
             ),
             Self::DependentConstraints { constraint } => write!(
                 f,
-                "the gradients of the constraints are dependent at constraint {constraint}, and the constraints contradict \
-                 one another there: a singular configuration; start away from it, or take another coordinate there"
+                "constraint {constraint} depends on the others, or contradicts them: the configuration is singular, or none in \
+                 reach is on all constraints; start away from it, or take another coordinate there"
             ),
             Self::OtherStep { h, taken } => write!(
                 f,

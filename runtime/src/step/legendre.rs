@@ -21,7 +21,8 @@ impl<S: Scalar, const N: usize> State<S, N> {
     /// [`StepError::SingularCoordinates`] if it is so at q alone; [`StepError::GeneratedDiffers`] if the
     /// derivatives generated belong to another function; [`StepError::OffConstraint`] and
     /// [`StepError::LeavesConstraint`] where a constraint is violated by more than rounding explains,
-    /// [`StepError::NoDerivative`] where one has no gradient.
+    /// [`StepError::NoDerivative`] where one has no gradient. Constraints that take the time are
+    /// looked at on the view alone, `system.at_time(t)`.
     pub fn from_velocity<L: Lagrangian<N, Scalar = S>>(
         system: &L,
         q: impl Into<SVector<S, N>>,

@@ -20,7 +20,8 @@ pub trait Constrained<const N: usize, const M: usize>: Lagrangian<N> {
     /// The number of constraints of velocity: the last ones.
     const OF_VELOCITY: usize = 0;
 
-    /// Whether a system at rest may leave a constraint: one that depends on time, or is not homogeneous in v.
+    /// Whether a constraint may have a rate at rest: one that depends on time, or one of velocity with a term
+    /// without v.
     const IS_PRESCRIBED: bool = false;
 
     /// g(q); 0 for a constraint of velocity.
@@ -113,8 +114,8 @@ pub fn last_rows<S: Scalar, const V: usize, const M: usize>(values: [S; V]) -> S
 /// numbers by whoever computed it.
 const ROUNDINGS: f64 = 1024.0;
 
-/// The first constraint that (q, v) violates by more than rounding explains, if any:
-/// [`Lagrangian::violation`] of a system with constraints.
+/// [`Lagrangian::violation`] of a system with constraints: the first one that is NaN or infinite, else the
+/// first that (q, v) violates by more than rounding explains, if any.
 #[cold]
 pub fn violation<L, const N: usize, const M: usize>(
     system: &L,

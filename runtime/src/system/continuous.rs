@@ -149,8 +149,8 @@ pub trait Lagrangian<const N: usize> {
         None
     }
 
-    /// The first operation of L, R, a component of f or a constraint that has no derivative at (q, v), such as
-    /// √s at s = 0.
+    /// The first operation of L, R, a component of f or a constraint that has no derivative at (q, v), such
+    /// as √s at s = 0.
     ///
     /// Generated where derivatives are written out and the function has such operations; none otherwise. An
     /// error of a step asks for it, no step does: [`without_derivative`](Self::without_derivative).
@@ -189,9 +189,9 @@ pub trait Lagrangian<const N: usize> {
         None
     }
 
-    /// The first constraint that is NaN or infinite at (q, v), or has such a gradient; else the first one that
-    /// (q, v) violates by more than rounding explains, if there are constraints. Generated where the system
-    /// has some.
+    /// The first constraint that is NaN or infinite at (q, v), or has such a gradient; else the first one
+    /// that (q, v) violates by more than rounding explains, if there are constraints. Generated where the
+    /// system has some.
     #[cold]
     fn violation(&self, q: &SVector<Self::Scalar, N>, v: &SVector<Self::Scalar, N>) -> Option<Violation> {
         let _ = (q, v);

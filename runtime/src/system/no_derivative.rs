@@ -4,7 +4,8 @@ use core::fmt;
 
 use crate::system::{Function, Place};
 
-/// A derivative of L, R, f or a constraint that is NaN or infinite, or a component of f or a constraint that is.
+/// A derivative of L, R, f or a constraint that is NaN or infinite, or a component of f or a constraint that
+/// is so itself.
 #[derive(Clone, Copy, PartialEq)]
 pub struct NoDerivative {
     /// Which function.

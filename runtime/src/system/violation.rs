@@ -21,7 +21,7 @@ pub enum Violation {
     Leaving {
         /// The constraint k, from 0.
         constraint: usize,
-        /// ∂gₖ/∂q·v.
+        /// ρₖ(q, v): ∂gₖ/∂q·v + ∂gₖ/∂t, or ψₖ(q, v) of a constraint of velocity.
         rate: f64,
     },
 }

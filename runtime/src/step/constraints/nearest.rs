@@ -26,7 +26,9 @@ const ROUNDINGS: f64 = 8.0;
 
 impl<S: Scalar, const N: usize> State<S, N> {
     /// The state on the constraints of `system` that is nearest to (q, v), in the metric of the mass ∂²L/∂v²:
-    /// q first, then v at q.
+    /// q first, then v at q. The configuration is found along the normals, by Newton's method: off the
+    /// nearest one by about the square of the distance over the radius of curvature, at most. Where all
+    /// constraints are of velocity, q stays as it is.
     ///
     /// ```
     /// use dalembert::{State, rayleigh_system};
@@ -50,8 +52,8 @@ impl<S: Scalar, const N: usize> State<S, N> {
     ///
     /// # Errors
     /// [`StepError::DependentConstraints`] where the gradients of the constraints do not tell where to go, or
-    /// no state in reach is on all of them; [`StepError::NoDerivative`] where one has no gradient; those of [`State::from_velocity`](crate::State::from_velocity)
-    /// but for the constraints.
+    /// no state in reach is on all of them; [`StepError::NoDerivative`] where one has no gradient; those of
+    /// [`State::from_velocity`](crate::State::from_velocity) but for the constraints.
     pub fn nearest<L, const M: usize>(
         system: &L,
         q: impl Into<SVector<S, N>>,

@@ -16,10 +16,12 @@ impl<L, R, const N: usize> Discretised<'_, L, R, N>
 where
     L: ClosedForm<R, N> + Discrete<R, N>,
 {
-    /// The multipliers λ of the `step` from `state`: the constraints act by the force Gᵀλ at q0, so that λₖ
-    /// is in N or N m where gₖ is a length or an angle.
+    /// The multipliers λ of the `step` from `state`: the constraints act by the force Gᵀλ at q0, with ∂gₖ/∂q
+    /// or ∂ψₖ/∂v for the rows of G, so that λₖ is in N or N m where gₖ is a length or an angle. It is
+    /// positive where the force pushes towards greater gₖ.
     ///
-    /// λ is that of the half step behind q0: the reaction at q0, to first order in h. Of redundant
+    /// (h/2)Gᵀλ is what p0 lacks to be −D1 L_d − f_d⁻, the impulse of the first half of the step: λ is that
+    /// of the motion at q0, to first order in h. Of redundant
     /// constraints it is the one of least Σ Sₖₖλₖ², with S = G(q1) W⁻¹ G(q0)ᵀ and W = ∂p0/∂v̄: by that norm
     /// the unit of a constraint changes none of the forces that it and others share.
     ///
@@ -41,7 +43,7 @@ where
     /// let by = Pendulum.by(Midpoint, 0.01);
     /// let hanging = State::from_velocity(&Pendulum, [0.0, -1.0], [0.0, 0.0])?;
     /// let tension = by.reactions(&hanging, &by.step(&hanging)?)?;
-    /// assert!((tension[0] + 9.81).abs() < 1e-12); // against growing lengths
+    /// assert!((tension[0] + 9.81).abs() < 1e-12); // towards smaller lengths
     /// # Ok::<(), dalembert::StepError>(())
     /// ```
     ///
