@@ -167,7 +167,8 @@ mod attributes {
 ///
 /// Steps on constraints keep g(q) = 0 to rounding, by `midpoint` and `trapezoidal` and by
 /// [`Composition`]s of them: no stabilisation, nothing to tune. Coordinates may be as many as are
-/// convenient, those of each body for itself, and constraints may be redundant.
+/// convenient, those of each body for itself, and constraints may be redundant, as the last one of a closed
+/// loop often is; one that is a number times another is an error.
 ///
 /// ```
 /// use dalembert::{Discretise, Midpoint, State, StepError, rayleigh_system};
@@ -208,9 +209,12 @@ mod attributes {
 /// ```
 ///
 /// Constraints that depend on time prescribe motion: g(q, t) = 0 drives a hoist, and v has to follow the rope
-/// as it is then. `velocity_constraints` hold v: ψ(q̄, v̄) = 0 in each step, with the reaction along ∂ψ/∂v; v
-/// at the end of each step satisfies ψ as well. Energy does not drift without friction, and order is that of
-/// the rule, but such a step is not symplectic, and has no discrete Lagrangian of its own: a coin that rolls
+/// as it is then, ∂g/∂q·v + ∂g/∂t = 0. Such a system has its constraints as a view, `system.at_time(t)`.
+///
+/// `velocity_constraints` hold v: ψ(q̄, v̄) = 0 in each step, at q̄ = (q0 + q1)/2, with the reaction along
+/// ∂ψ/∂v; v at the end of each step satisfies ψ as well. Order is that of the rule. Such a step is not
+/// symplectic, and has no discrete Lagrangian of its own: that energy does not drift without friction, as
+/// that of a skate over 100 000 steps, follows from no theorem. A coin that rolls:
 ///
 /// ```
 /// use dalembert::{Discretise, Midpoint, State, StepError, rayleigh_system};
@@ -239,9 +243,9 @@ mod attributes {
 /// ```
 ///
 /// A, B and derivatives by parameters are those of the step that [`State::nearest`] extends to states off
-/// the constraints, 2N×2N. Constraints do not go with Gauss rules, lanes, `time_scale` and
-/// `step_derivatives`. Of the checkers `noether`, `rayleigh_step` and `rayleigh_structure` take holonomic
-/// ones, and `dissipation` and `ledger` any.
+/// the constraints, 2N×2N. Constraints do not go with other rules, `lanes`, `time_scale`, `step_derivatives`
+/// and `derivatives = num_dual`, and their steps have no certificate. Of the checkers `noether`,
+/// `rayleigh_step` and `rayleigh_structure` take holonomic ones, and `dissipation` and `ledger` any.
 ///
 /// # Rules
 ///

@@ -39,7 +39,7 @@ pub use acting_force::ActingForce;
 pub use constrained::{
     Constrained, ConstrainedParameters, ConstraintsBy, first_rows, last_rows, normals, violation,
 };
-pub(crate) use constrained::{off, sizes};
+pub(crate) use constrained::{lost, off, sizes};
 pub use continuous::{Force, Lagrangian, Rayleigh};
 pub(crate) use continuous::{derivatives_apart, is_timed};
 pub use described::Described;

@@ -17,7 +17,7 @@
 //!
 //! | function | what it does |
 //! |---|---|
-//! | `p_violation(parameters, t, q, v, violation)` | off which constraint (q, v) is, and how far |
+//! | `p_violation(parameters, t, q, v, violation)` | which constraint (q, v) violates, and by how much |
 //! | `p_nearest(parameters, t, q, v, nearest_q, nearest_v)` | the nearest state on all constraints |
 //! | `p_reactions(memory, lambda)` | λ of the last step |
 //!

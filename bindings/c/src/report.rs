@@ -40,9 +40,11 @@ impl CReport {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct CViolation {
-    /// The value of the constraint, in its unit, or its rate, in that per unit of time.
+    /// The value of the constraint, in its unit, or its rate, in that per unit of time; NaN where it has no
+    /// derivative.
     pub amount: f64,
-    /// [`Status::OffConstraint`], [`Status::LeavesConstraint`], or [`Status::Ok`] where none is violated.
+    /// [`Status::OffConstraint`], [`Status::LeavesConstraint`], [`Status::NoDerivativeOfConstraint`], or
+    /// [`Status::Ok`] where none is violated.
     pub status: i32,
     /// Which one, from 0.
     pub constraint: u32,
@@ -52,6 +54,9 @@ impl From<Option<Violation>> for CViolation {
     fn from(found: Option<Violation>) -> Self {
         let (status, constraint, amount) = match found {
             None => (Status::Ok, 0, 0.0),
+            Some(Violation::NoDerivative { constraint, .. }) => {
+                (Status::NoDerivativeOfConstraint, constraint, f64::NAN)
+            }
             Some(Violation::Off { constraint, value }) => (Status::OffConstraint, constraint, value),
             Some(Violation::Leaving { constraint, rate }) => (Status::LeavesConstraint, constraint, rate),
         };

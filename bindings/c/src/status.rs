@@ -32,7 +32,7 @@ macro_rules! statuses {
 
             /// Whether a system without constraints cannot return it.
             pub(crate) const fn is_of_constraints(self) -> bool {
-                self as i32 >= Self::OffConstraint as i32 && self as i32 <= Self::NoStep as i32
+                self as i32 >= Self::OffConstraint as i32 && self as i32 <= Self::NoDerivativeOfConstraint as i32
             }
 
             /// The text for C: the cause and the remedy, in ASCII, ended by a zero byte.
@@ -104,6 +104,8 @@ statuses! {
     DependentConstraints = 27, "DALEMBERT_DEPENDENT_CONSTRAINTS", "the constraints contradict one another there, or no state in reach is on all of them: a singular configuration; start away from it";
     /// There is no step to be asked.
     NoStep = 28, "DALEMBERT_NO_STEP", "no step was taken since the run began or its parameters were set: take one, and ask for its reactions then";
+    /// A constraint has no value or no derivative where it was evaluated.
+    NoDerivativeOfConstraint = 29, "DALEMBERT_NO_DERIVATIVE_OF_CONSTRAINT", "a constraint or its derivative is NaN or infinite there, as that of sqrt(s) at s = 0: look at parameters and configuration, violation says at which constraint";
 }
 
 impl From<StepError> for Status {
@@ -132,6 +134,7 @@ impl From<&StepError> for Status {
                 Function::Lagrangian => Self::NoDerivativeOfLagrangian,
                 Function::Rayleigh => Self::NoDerivativeOfRayleigh,
                 Function::Force { .. } => Self::NoDerivativeOfForce,
+                Function::Constraint { .. } => Self::NoDerivativeOfConstraint,
                 _ => Self::DerivativesNotFinite,
             },
             StepError::DegenerateLagrangian { .. } => Self::DegenerateLagrangian,
@@ -171,9 +174,10 @@ pub fn text(status: i32) -> *const core::ffi::c_char {
 
 #[cfg(test)]
 mod tests {
-    use dalembert::{Discretise, Midpoint, State, rayleigh_system};
+    use dalembert::{Discretise, Lagrangian, Midpoint, State, rayleigh_system};
 
     use super::*;
+    use crate::CViolation;
 
     /// A root of v² in R or f, or of q² in L.
     #[rayleigh_system(rule = midpoint)]
@@ -208,6 +212,36 @@ mod tests {
             let error = system.by(Midpoint, 0.1).linearized(&rest).err().unwrap();
             assert_eq!(Status::from(error), status);
             assert!(status.text_for_c().contains("sqrt(s + eps^2)"), "{status}");
+        }
+    }
+
+    /// A point at a distance from the origin, which has no gradient there.
+    struct Tethered {
+        length: f64,
+    }
+
+    #[rayleigh_system]
+    impl Tethered {
+        fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+            0.5 * (v[0] * v[0] + v[1] * v[1]) - q[1]
+        }
+
+        fn constraints(&self, q: [f64; 2]) -> [f64; 1] {
+            [(q[0] * q[0] + q[1] * q[1]).sqrt() - self.length]
+        }
+    }
+
+    #[test]
+    fn a_constraint_without_a_gradient_has_a_status_and_is_named() {
+        for (length, status) in [(0.0, Status::NoDerivativeOfConstraint), (0.1, Status::OffConstraint)] {
+            let error =
+                State::from_velocity(&Tethered { length }, [length * 0.5, 0.0], [0.0; 2]).unwrap_err();
+            assert_eq!(Status::from(error), status);
+            let found = CViolation::from(
+                Tethered { length }.violation(&[0.5 * length, 0.0].into(), &[0.0; 2].into()),
+            );
+            assert!(found.status == status as i32 && found.constraint == 0 && status.is_of_constraints());
+            assert_eq!(found.amount.is_nan(), length == 0.0);
         }
     }
 }

@@ -125,7 +125,8 @@ def test_where_no_state_is_in_reach_nothing_is_made_up(bob):
     for system, q in ((bob, [0.0] * 3), (SphericalPendulum(M, 0.0, GRAVITY, DRAG), OFF["q"])):
         with pytest.raises(StepError) as raised:
             system.nearest(q=q, v=OFF["v"])
-        assert raised.value.kind == "NonFinite" and list(raised.value.q) == q
+        assert raised.value.kind == "NoDerivative" and list(raised.value.q) == q
+        assert raised.value.data["function"] == "constraint 0"
 
 
 def test_an_error_can_be_asked_for_on_constraints(bob, start):
@@ -137,12 +138,28 @@ def test_an_error_can_be_asked_for_on_constraints(bob, start):
 def test_what_constraints_do_not_have_is_refused_by_name(bob, start):
     with pytest.raises(ValueError, match="rule: expected one of midpoint, trapezoidal, got blanes_moan_4"):
         bob.run(h=0.01, steps=1, rule="blanes_moan_4", **start)
-    with pytest.raises(ValueError, match="symmetries: .* without constraints"):
-        bob.symmetries(h=0.1, low=[0] * 3, high=[1] * 3, reach=[0.1] * 3)
     with pytest.raises(ValueError, match="events: .* without derivatives and reactions"):
         bob.run(h=0.01, steps=10, reactions=True, events=[Plane(q=[1, 0, 0])], **start)
     with pytest.raises(TypeError, match="Ring has no constraints"):
         Ring(k=1e-3).run(h=0.1, steps=1, q=[0, 1], v=[0, 0], reactions=True)
+
+
+def test_symmetries_are_those_of_the_sphere(bob):
+    box = {"h": 0.05, "low": [-1] * 3, "high": [1] * 3, "reach": [0.1] * 3}
+    free = SphericalPendulum(M, LENGTH, GRAVITY, 0.0)
+    for system, rule in ((bob, "midpoint"), (free, "midpoint"), (free, "trapezoidal")):
+        reports = {report.generator: report for report in system.symmetries(rule=rule, **box)}
+        # No translation stays on a sphere.
+        assert list(reports) == ["rotation(0, 1)", "rotation(0, 2)", "rotation(1, 2)"]
+        assert all(report.is_consistent for report in reports.values())
+        vertical, level = reports["rotation(0, 1)"], reports["rotation(1, 2)"]
+        assert vertical.is_symmetry_of_lagrangian and not level.is_symmetry_of_lagrangian
+        assert vertical.force_does_work == (system is bob) and vertical.is_conserved == (system is free)
+    along, turn = (np.zeros((3, 3)), [0, 1, 0]), (np.array([[0, -1, 0], [1, 0, 0], [0, 0, 0]]), np.zeros(3))
+    (report,) = free.symmetries(generators={"turn": turn}, **box)
+    assert report.is_conserved
+    with pytest.raises(ValueError, match="generator 1 leaves the constraints at sample 0"):
+        free.symmetries(generators={"turn": turn, "along y": along}, **box)
 
 
 def test_energy_and_events_are_those_of_any_run(bob, start):

@@ -1,4 +1,4 @@
-"""Members that panic, a model that was edited since its parts were written, two rods: of the package in ../trials."""
+"""Members that panic, a model that was edited since its parts were written, two rods, a skate: of the package in ../trials."""
 
 import os
 import subprocess
@@ -76,3 +76,18 @@ def test_reactions_follow_an_input_for_each_step():
     assert np.array_equal(run.reactions[0], run.reactions[1])
     # Control: the input of the next step is another reaction.
     assert not np.allclose(run.reactions[:-1], expected)
+
+
+def test_constraints_of_velocity_have_a_ledger_and_no_symmetries():
+    skate = trials.Skate(1.7)
+    box = {"low": [-1] * 3, "high": [1] * 3, "reach": [0.1] * 3}
+    with pytest.raises(ValueError, match="symmetries: .* without constraints of velocity"):
+        skate.symmetries(h=0.1, **box)
+    ledger = skate.energy_ledger(h=0.01, steps=50, q=[0, 0, 0], v=[0, 0, 0.9])
+    assert ledger.dissipated == 0.0 and abs(ledger.change) < 1e-4
+    # Control: rods are asked, with both of which a turn about the pivot goes.
+    turn = np.kron(np.eye(2), [[0, -1], [1, 0]])
+    box = {"low": [-1] * 4, "high": [1] * 4, "reach": [0.1] * 4, "u": [0, 0]}
+    (report,) = trials.Rods([1.0, 0.7]).symmetries(h=0.01, generators={"turn": (turn, np.zeros(4))}, **box)
+    # Gravity is not.
+    assert report.is_consistent and not report.is_symmetry_of_lagrangian

@@ -37,7 +37,7 @@ pub fn check(system: &System<'_>, report: &mut Report) {
     }
 }
 
-/// Reports constraints that are more than the coordinates, equal to another, or do not hold q or v.
+/// Reports constraints that are more than the coordinates, a multiple of another, or do not hold q or v.
 pub fn check_lowered(system: &System<'_>, lowered: &Lowered, report: &mut Report) {
     let graph = &lowered.graph;
     let count: usize = lowered.constraints.iter().map(Vec::len).sum();
@@ -49,10 +49,14 @@ pub fn check_lowered(system: &System<'_>, lowered: &Lowered, report: &mut Report
             report.at(&name, Mistake::ConstraintCount { constraints, coordinates });
             return;
         }
-        for (index, &constraint) in constraints.iter().enumerate() {
+        let combinations: Vec<_> = constraints.iter().map(|&root| graph.combination(root)).collect();
+        for (index, (&constraint, combination)) in constraints.iter().zip(&combinations).enumerate() {
             let at = tokens_of(system, part, index);
-            if let Some(other) = constraints[..index].iter().position(|&before| before == constraint) {
-                report.at(&at, Mistake::EqualConstraints { other });
+            let before = combinations[..index].iter().enumerate();
+            let multiples = before.map(|(other, before)| (other, combination.multiple_of(before)));
+            let mut found = multiples.filter_map(|(other, factor)| Some((other, factor?)));
+            if let Some((other, factor)) = found.next() {
+                report.at(&at, Mistake::ConstraintOnceMore { other, factor });
             } else if part == Part::Constraints && !reads(graph, constraint, is_coordinate) {
                 report.at(&at, Mistake::ConstraintWithoutCoordinate);
             } else if part == Part::VelocityConstraints && !reads(graph, constraint, is_velocity) {

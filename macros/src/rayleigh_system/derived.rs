@@ -126,7 +126,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered) -> Result<Derived, Refus
         functions.extend(deriving.cancelling_terms());
     }
     functions.extend(deriving.constraint_rounding(&constraints));
-    let places = deriving.places();
+    let places = deriving.places(&constraints);
     let graph = deriving.graph;
     Ok(Derived {
         graph,

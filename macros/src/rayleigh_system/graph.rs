@@ -9,6 +9,7 @@
 mod algebra;
 mod angles;
 mod before;
+mod combination;
 mod factor;
 mod fused;
 mod operation;

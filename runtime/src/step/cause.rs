@@ -1,4 +1,4 @@
-//! The cause of derivatives that are not finite: which of L, R and f has none, and where.
+//! The cause of derivatives that are not finite: which of L, R, f and the constraints has none, and where.
 //!
 //! With the standard library errors name it. Without it they do not, and no program carries what finds it
 //! unless it asks: [`Lagrangian::without_derivative`].
@@ -9,7 +9,7 @@ use crate::step::StepError;
 use crate::step::regular::is_regular_beside;
 #[cfg(feature = "std")]
 use crate::system::Quantity;
-use crate::system::{Lagrangian, NoDerivative, missing};
+use crate::system::{Function, Lagrangian, NoDerivative, Violation, missing};
 
 /// The `error`, if it is one of numbers that are not finite, with its `cause` in place of it.
 #[cfg(feature = "std")]
@@ -43,6 +43,26 @@ pub(crate) fn cause_of<L: Lagrangian<N> + ?Sized, const N: usize>(
     }
     let given = system.non_finite_value();
     given.map(|(quantity, index)| StepError::NonFinite { quantity, index }).or(found.map(StepError::from))
+}
+
+/// The error of a point (q, v) that the constraints do not allow.
+#[cold]
+#[inline(never)]
+pub(crate) fn of_violation<L: Lagrangian<N> + ?Sized, const N: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
+    violation: Violation,
+) -> StepError {
+    match violation {
+        Violation::NoDerivative { constraint, coordinate } if cfg!(feature = "std") => {
+            let function = Function::Constraint { index: constraint };
+            let place = system.place_without_derivative(function, q, v);
+            let cause = cause_of(system, Some(NoDerivative { function, coordinate, place }));
+            cause.unwrap_or(violation.into())
+        }
+        other => other.into(),
+    }
 }
 
 /// [`explained`] where L alone was evaluated, at (q, v).

@@ -29,6 +29,7 @@ mod linearized;
 mod nearest;
 mod reactions;
 mod rows;
+mod undefined;
 
 use nalgebra::{SMatrix, SVector};
 
@@ -44,7 +45,8 @@ use equation::OnConstraints;
 pub use linearized::Linearized;
 use nearest::{held, require_on};
 
-/// M constraints, [`Constrained`]: the border of a step on N = g⁻¹(0), along the constraints of velocity.
+/// The border of a system with M constraints, [`Constrained`]: steps stay on N = g⁻¹(0), and satisfy those of
+/// velocity.
 #[derive(Clone, Copy, Debug)]
 pub struct Constraints<const M: usize>;
 
@@ -85,7 +87,7 @@ where
         factored: &impl Factored<L::Scalar, N>,
     ) -> Option<Self::Underway> {
         let (values, gradients) = system.constraint_gradients(&guess.q0);
-        require_on(&values, &gradients, &guess.q0).ok()?;
+        require_on(system, (&values, &gradients), &guess.q0).ok()?;
         Bordered::of(system, guess, gradients.transpose(), factored)
     }
 

@@ -176,6 +176,9 @@ where
     /// be negative. Nothing is allocated, nothing panics (unless L, R or f do), and the number of
     /// iterations is bounded.
     ///
+    /// On constraints q1 is on them and v along them, each to rounding: by reactions along their gradients,
+    /// at q0 in the equation for q1 and at q1 in p1 ([`reactions`](Self::reactions)).
+    ///
     /// In a sequence of steps, [`run`](Self::run) and [`near`](Self::near) save iterations.
     ///
     /// # Errors

@@ -51,13 +51,14 @@ pub enum StepError {
         /// Its coordinate.
         index: usize,
     },
-    /// A derivative of L, R or f is NaN or infinite at a point where the step evaluated it
-    /// ([`Lagrangian::without_derivative`](crate::Lagrangian::without_derivative)). Without the standard
-    /// library the error is [`NonFinite`](Self::NonFinite) in its place.
+    /// A derivative of L, R, f or a constraint, or a constraint itself, is NaN or infinite at a point where
+    /// the step evaluated it ([`Lagrangian::without_derivative`](crate::Lagrangian::without_derivative),
+    /// [`Lagrangian::violation`](crate::Lagrangian::violation)). Without the standard library the error of L,
+    /// R and f is [`NonFinite`](Self::NonFinite) in its place.
     NoDerivative {
         /// Which function.
         function: Function,
-        /// The coordinate i of the derivative by qᵢ or vᵢ.
+        /// The coordinate i of the derivative by qᵢ or vᵢ; of no meaning where a value alone is none.
         coordinate: usize,
         /// The operation that has no derivative there, where it is known.
         place: Option<Place>,
@@ -91,14 +92,25 @@ pub enum StepError {
     LeavesConstraint {
         /// The constraint k, from 0.
         constraint: usize,
-        /// ∂gₖ/∂q·v.
+        /// ∂gₖ/∂q·v + ∂gₖ/∂t, or ψₖ(q, v) of a constraint of velocity.
         rate: f64,
     },
     /// The gradient of a constraint depends on those of the others and the constraints are not redundant: the
-    /// configuration is singular, as a four-bar linkage is where all bars lie on a line.
+    /// configuration is singular, as a four-bar linkage is where all bars lie on a line. Or, of
+    /// [`State::nearest`](crate::State::nearest), no configuration in reach is on all constraints.
     DependentConstraints {
         /// The constraint k, from 0, as far as it is known.
         constraint: usize,
+    },
+    /// A step that is asked about, as for its [`reactions`](crate::Discretised::reactions), does not lead
+    /// from the state given by the step size of the question: it was taken with another one, or from another
+    /// state.
+    OtherStep {
+        /// The step size of the question.
+        h: f64,
+        /// (q1 − q0)/v̄ of the coordinate that is farthest off: the step size of the step, if it was taken
+        /// from the state given.
+        taken: f64,
     },
     /// No velocity in reach has this momentum: ∂L/∂v(q, v) = p, which no step size enters.
     NoVelocity {
@@ -192,6 +204,9 @@ impl From<GeneratedDiffers> for StepError {
 impl From<Violation> for StepError {
     fn from(violation: Violation) -> Self {
         match violation {
+            Violation::NoDerivative { constraint: index, coordinate } => {
+                Self::NoDerivative { function: Function::Constraint { index }, coordinate, place: None }
+            }
             Violation::Off { constraint, value } => Self::OffConstraint { constraint, value },
             Violation::Leaving { constraint, rate } => Self::LeavesConstraint { constraint, rate },
         }
@@ -265,8 +280,14 @@ impl fmt::Display for StepError {
             ),
             Self::DependentConstraints { constraint } => write!(
                 f,
-                "the gradients of the constraints are dependent at constraint {constraint}, and the constraints contradict \
-                 one another there: a singular configuration; start away from it, or take another coordinate there"
+                "constraint {constraint} depends on the others, or contradicts them: the configuration is singular, or none in \
+                 reach is on all constraints; start away from it, or take another coordinate there"
+            ),
+            Self::OtherStep { h, taken } => write!(
+                f,
+                "the step asked about is not that of the state given by h = {h}: from there its mean velocity takes {taken} \
+                 to its end; give the state that it was taken from, and ask the system with the step size that it was \
+                 taken with"
             ),
             Self::NoVelocity { residual } => write!(
                 f,
@@ -304,8 +325,8 @@ fn non_finite(f: &mut fmt::Formatter<'_>, quantity: Quantity, index: usize) -> f
     match quantity {
         Quantity::Derivatives => write!(
             f,
-            "a derivative of L, R or f by coordinate {index} is NaN or infinite; look first at the fields of the system \
-             and its input: one may be NaN, infinite or too large; then at L, R and f: √s has no derivative at s = 0 \
+            "a derivative of L, R, f or a constraint by coordinate {index} is NaN or infinite; look first at the fields of \
+             the system and its input: one may be NaN, infinite or too large; then at these functions: √s has no derivative at s = 0 \
              (√(s + ε²) has), a power below 1 and a logarithm have none at 0; if theirs are finite at the state \
              given, the step leaves the region where they are: try a smaller step"
         ),
@@ -317,7 +338,7 @@ fn non_finite(f: &mut fmt::Formatter<'_>, quantity: Quantity, index: usize) -> f
             f.write_str("the time given is NaN or infinite; give the time that the step starts at")
         }
         Quantity::Field { name } => {
-            write!(f, "`{name}` of the system is NaN, and L, R or f compute with it; give it a number")
+            write!(f, "`{name}` of the system is NaN, and its functions compute with it; give it a number")
         }
         Quantity::Configuration | Quantity::Velocity | Quantity::Momentum => {
             write!(f, "the {quantity} given is NaN or infinite in coordinate {index}; give finite numbers")

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use crate::numbers::{Scalar, linear};
-use crate::step::cause::explained_by_lagrangian;
+use crate::step::cause::{explained_by_lagrangian, of_violation};
 use crate::step::equation::Alone;
 use crate::step::regular::{beside_velocity, require_regular};
 use crate::step::{
@@ -20,7 +20,9 @@ impl<S: Scalar, const N: usize> State<S, N> {
     /// ∂²L/∂v² is singular, at v and next to it: that of |v|⁴ is singular at v = 0 alone;
     /// [`StepError::SingularCoordinates`] if it is so at q alone; [`StepError::GeneratedDiffers`] if the
     /// derivatives generated belong to another function; [`StepError::OffConstraint`] and
-    /// [`StepError::LeavesConstraint`] where a constraint is violated by more than rounding explains.
+    /// [`StepError::LeavesConstraint`] where a constraint is violated by more than rounding explains,
+    /// [`StepError::NoDerivative`] where one has no gradient. Constraints that take the time are
+    /// looked at on the view alone, `system.at_time(t)`.
     pub fn from_velocity<L: Lagrangian<N, Scalar = S>>(
         system: &L,
         q: impl Into<SVector<S, N>>,
@@ -37,7 +39,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
         if L::IS_CONSTRAINED
             && let Some(violation) = system.violation(&q, &v)
         {
-            return Err(violation.into());
+            return Err(of_violation(system, &q, &v, violation));
         }
         Ok(Self { q, p: l.d2 })
     }

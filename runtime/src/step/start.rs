@@ -6,6 +6,7 @@ use crate::numbers::comparison::{self, Apart, MOMENTA};
 use crate::numbers::nonlinear::Room;
 use crate::numbers::slices::{vector, write};
 use crate::numbers::{Derivatives, Scalar, linear};
+use crate::step::cause::of_violation;
 use crate::step::{ClosedForm, Fused, Momenta, Segment, State, StepError};
 use crate::system::{
     Compared, Function, GeneratedDiffers, Lagrangian, Violation, derivatives_apart,
@@ -62,9 +63,11 @@ pub(crate) fn verify_start<L: Lagrangian<N>, const N: usize>(
     }
     system.later(L::Scalar::constant(elapsed), |system| {
         if L::IS_CONSTRAINED
-            && let Some(off @ Violation::Off { .. }) = system.violation(&state.q, &nalgebra::zero())
+            && let Some(violation) = system.violation(&state.q, &nalgebra::zero())
+            // Rest may leave constraints that move by themselves.
+            && !matches!(violation, Violation::Leaving { .. })
         {
-            return Err(off.into());
+            return Err(of_violation(system, &state.q, &nalgebra::zero(), violation));
         }
         if cfg!(feature = "std") && with_slopes {
             return state.verify(system);

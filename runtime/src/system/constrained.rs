@@ -20,7 +20,8 @@ pub trait Constrained<const N: usize, const M: usize>: Lagrangian<N> {
     /// The number of constraints of velocity: the last ones.
     const OF_VELOCITY: usize = 0;
 
-    /// Whether a system at rest may leave a constraint: one that depends on time, or is not homogeneous in v.
+    /// Whether a constraint may have a rate at rest: one that depends on time, or one of velocity with a term
+    /// without v.
     const IS_PRESCRIBED: bool = false;
 
     /// g(q); 0 for a constraint of velocity.
@@ -113,8 +114,8 @@ pub fn last_rows<S: Scalar, const V: usize, const M: usize>(values: [S; V]) -> S
 /// numbers by whoever computed it.
 const ROUNDINGS: f64 = 1024.0;
 
-/// The first constraint that (q, v) violates by more than rounding explains, if any:
-/// [`Lagrangian::violation`] of a system with constraints.
+/// [`Lagrangian::violation`] of a system with constraints: the first one that is NaN or infinite, else the
+/// first that (q, v) violates by more than rounding explains, if any.
 #[cold]
 pub fn violation<L, const N: usize, const M: usize>(
     system: &L,
@@ -125,11 +126,14 @@ where
     L: Constrained<N, M> + ?Sized,
 {
     let (values, gradients) = system.constraint_gradients(q);
+    let ((rates, _), (drift, _)) =
+        (system.constraint_rates(q, v), system.constraint_rates(q, &nalgebra::zero()));
+    if let Some(lost) = lost(&values, &gradients).or_else(|| lost(&rates, &gradients)) {
+        return Some(lost);
+    }
     if let Some((constraint, value)) = off(&values, &gradients, q) {
         return Some(Violation::Off { constraint, value: value.widen() });
     }
-    let ((rates, _), (drift, _)) =
-        (system.constraint_rates(q, v), system.constraint_rates(q, &nalgebra::zero()));
     let sizes = sizes(&gradients, v) + drift.abs();
     let rounded = rates.as_slice().iter().zip(sizes.as_slice());
     for (constraint, (rate, size)) in rounded.enumerate() {
@@ -154,7 +158,17 @@ where
     Normals::of(rows.zip(values.iter().copied()).take(M - L::OF_VELOCITY.min(M)))
 }
 
-/// The first constraint whose value at q rounding does not explain, with the value.
+/// The first constraint with a value or a derivative by a coordinate that is NaN or infinite.
+#[cold]
+pub(crate) fn lost<S: Scalar, const N: usize, const M: usize>(
+    values: &SVector<S, M>,
+    by_one: &SMatrix<S, M, N>,
+) -> Option<Violation> {
+    let found = S::component_lost(values.as_slice(), [by_one.as_slice(), by_one.as_slice()]);
+    found.map(|(constraint, coordinate)| Violation::NoDerivative { constraint, coordinate })
+}
+
+/// The first constraint whose value at q rounding does not explain, or is not known to, with the value.
 pub(crate) fn off<S: Scalar, const N: usize, const M: usize>(
     values: &SVector<S, M>,
     gradients: &SMatrix<S, M, N>,
@@ -166,10 +180,10 @@ pub(crate) fn off<S: Scalar, const N: usize, const M: usize>(
     rounded.find(|(_, (value, size))| exceeds(**value, **size)).map(|(k, (value, _))| (k, *value))
 }
 
-/// Whether rounding of terms of this size does not explain the amount.
+/// Whether rounding of terms of this size does not explain the amount, or one of the two is no number.
 fn exceeds<S: Scalar>(amount: S, size: S) -> bool {
     let most = size * (S::EPSILON * S::constant(ROUNDINGS));
-    amount.abs() > most || !amount.is_finite()
+    amount.abs() > most || !amount.is_finite() || !most.is_finite()
 }
 
 /// Σⱼ |Gₖⱼ||xⱼ| for each constraint k.

@@ -120,7 +120,8 @@ pub trait Lagrangian<const N: usize> {
     /// ([`StepError::NoDerivative`](crate::StepError::NoDerivative)); without it the caller does.
     ///
     /// Generated where L, R or f can lack a derivative, and by num-dual; none otherwise. A system written by
-    /// hand makes it of the functions of [`missing`](crate::system::missing).
+    /// hand makes it of the functions of [`missing`](crate::system::missing). Constraints are asked by
+    /// [`violation`](Self::violation).
     ///
     /// ```
     /// use dalembert::{Lagrangian, nalgebra::vector, rayleigh_system};
@@ -148,7 +149,8 @@ pub trait Lagrangian<const N: usize> {
         None
     }
 
-    /// The first operation of L, R or a component of f that has no derivative at (q, v), such as √s at s = 0.
+    /// The first operation of L, R, a component of f or a constraint that has no derivative at (q, v), such
+    /// as √s at s = 0.
     ///
     /// Generated where derivatives are written out and the function has such operations; none otherwise. An
     /// error of a step asks for it, no step does: [`without_derivative`](Self::without_derivative).
@@ -187,8 +189,9 @@ pub trait Lagrangian<const N: usize> {
         None
     }
 
-    /// The constraint that (q, v) violates, if there are any and one is violated by more than rounding
-    /// explains. Generated where the system has constraints.
+    /// The first constraint that is NaN or infinite at (q, v), or has such a gradient; else the first one
+    /// that (q, v) violates by more than rounding explains, if there are constraints. Generated where the
+    /// system has some.
     #[cold]
     fn violation(&self, q: &SVector<Self::Scalar, N>, v: &SVector<Self::Scalar, N>) -> Option<Violation> {
         let _ = (q, v);

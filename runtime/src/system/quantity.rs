@@ -12,7 +12,7 @@ pub enum Quantity {
     Velocity,
     /// The momentum p.
     Momentum,
-    /// The derivatives of L, R or f, at the point where the step evaluated them.
+    /// The derivatives of L, R, f or a constraint, at the point where the step evaluated them.
     Derivatives,
     /// An entry of the input u that a view holds.
     InputEntry,
@@ -31,7 +31,7 @@ impl fmt::Display for Quantity {
             Self::Configuration => "configuration",
             Self::Velocity => "velocity",
             Self::Momentum => "momentum",
-            Self::Derivatives => "derivative of L, R or f",
+            Self::Derivatives => "derivative of L, R, f or a constraint",
             Self::InputEntry => "entry of the input",
             Self::Time => "time",
             Self::Field { name } => return write!(f, "field {name}"),

@@ -98,10 +98,14 @@ struct Terms {
     size: Defect<f64>,
 }
 
-impl<L, R, const N: usize> Noether<'_, L, R, N>
+impl<'a, L, R, const N: usize> Noether<'a, L, R, N>
 where
     L: Discrete<R, N>,
 {
+    fn of(by: &Discretised<'a, L, R, N>) -> Self {
+        Self { by: *by, tolerance: Tolerance::rounding::<L::Scalar>() }
+    }
+
     /// Counts as zero what is below `relative` times the size of the terms; 1024 ε unless said.
     ///
     /// Raise it where L, R or f lose digits inside, or are known to few digits themselves.
@@ -183,6 +187,13 @@ where
     #[must_use]
     pub fn noether(&self) -> Noether<'a, L, R, N> {
         const { Self::require_holonomic() };
-        Noether { by: *self, tolerance: Tolerance::rounding::<L::Scalar>() }
+        Noether::of(self)
+    }
+
+    /// [`noether`](Self::noether) for code that is compiled for systems of any kind; none on constraints of
+    /// velocity, of which `noether` itself does not compile.
+    #[must_use]
+    pub fn noether_if_holonomic(&self) -> Option<Noether<'a, L, R, N>> {
+        (!L::IS_NONHOLONOMIC).then(|| Noether::of(self))
     }
 }

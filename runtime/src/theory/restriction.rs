@@ -79,15 +79,16 @@ fn require_on<L: Lagrangian<N>, const N: usize>(
     q: &SVector<L::Scalar, N>,
 ) -> Result<(), Violation> {
     match system.violation(q, &nalgebra::zero()) {
-        Some(off @ Violation::Off { .. }) => Err(off),
         // Rest leaves constraints that move by themselves.
-        _ => Ok(()),
+        None | Some(Violation::Leaving { .. }) => Ok(()),
+        Some(violation) => Err(violation),
     }
 }
 
 /// The error of the sample of this number.
 fn off(index: usize, violation: Violation) -> SampleError {
     match violation {
+        Violation::NoDerivative { .. } => SampleError::NonFinite { index },
         Violation::Off { constraint, value } => SampleError::OffConstraint { index, constraint, value },
         Violation::Leaving { constraint, rate } => {
             SampleError::OffConstraint { index, constraint, value: rate }

@@ -112,4 +112,23 @@ impl ByDuals {
     }
 }
 
+struct OnceMore {
+    l: f64,
+}
+
+#[rayleigh_system]
+impl OnceMore {
+    fn lagrangian(&self, q: [f64; 6], v: [f64; 6]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + v[3] * v[3]) - q[1]
+    }
+    fn constraints(&self, q: [f64; 6]) -> [f64; 4] {
+        // Of the last the factor is a field: it may be any number.
+        [q[0] - self.l, self.l - q[0], -0.5 * q[0] + self.l / 2.0, self.l * (q[0] - self.l)]
+    }
+    fn velocity_constraints(&self, q: [f64; 6], v: [f64; 6]) -> [f64; 2] {
+        let s = q[2].sin();
+        [s * v[0] - v[1], 3.0 * (v[1] - s * v[0] + 0.0 * q[1])]
+    }
+}
+
 fn main() {}

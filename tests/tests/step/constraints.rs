@@ -4,6 +4,7 @@
 mod derivatives;
 mod of_velocity;
 mod prescribed;
+mod refused;
 
 use dalembert::nalgebra::{SMatrix, SVector, Vector3};
 use dalembert::system::Violation;

@@ -3,7 +3,7 @@
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::noether::{Contribution, Generator};
 use dalembert::run::Stop;
-use dalembert::samples::segments;
+use dalembert::samples::{SampleError, segments};
 use dalembert::step::{Discrete, ForceWork};
 use dalembert::{Discretise, EnergyLedger, Lagrangian, State};
 
@@ -22,6 +22,8 @@ pub struct Affine {
     pub linear: Vec<f64>,
     /// b.
     pub constant: Vec<f64>,
+    /// Whether it is left out where it leaves the constraints, and not an error.
+    pub is_optional: bool,
 }
 
 /// Where symmetries are looked for: segments that begin in a box.
@@ -73,10 +75,11 @@ pub struct Ledger {
 
 /// The checks of a system by one rule.
 pub trait Checks<S: System<N>, const N: usize>: Send + Sync {
-    /// The effect of each generator on L_d, on the force and on its momentum.
+    /// The effect of each generator on L_d, on the force and on its momentum, at samples that are moved onto
+    /// the constraints.
     ///
     /// # Errors
-    /// That the samples say nothing, or the watcher.
+    /// [`Refusal::NotHolonomic`]; that the samples say nothing, or the watcher.
     fn symmetries(
         &self,
         fields: &S::Fields,
@@ -122,19 +125,26 @@ where
     ) -> Result<Vec<Symmetry>, Refusal> {
         let system = S::view(fields, given.inputs, given.time);
         let is_called_off = || watch.is_called_off();
-        let noether = system.by(self.0, h).stopped_by(Stop::when(&is_called_off)).noether();
+        let by = system.by(self.0, h).stopped_by(Stop::when(&is_called_off));
+        let noether = by.noether_if_holonomic().ok_or(Refusal::NotHolonomic)?;
         let vector = SVector::<f64, N>::from_column_slice;
         let Region { low, high, reach, samples } = *region;
-        let segments = segments(vector(low), vector(high), vector(reach), samples);
-        let judged = |Affine { name, linear, constant }: &Affine| {
+        let segments = by.on_constraints(&segments(vector(low), vector(high), vector(reach), samples))?;
+        let judged = |(number, Affine { name, linear, constant, is_optional }): (usize, &Affine)| {
             let generator = Generator::affine(
                 name.clone(),
                 SMatrix::<f64, N, N>::from_row_slice(linear),
                 vector(constant),
             );
-            let found = noether.symmetry(&generator, &segments)?;
+            let found = match noether.symmetry(&generator, &segments) {
+                Err(SampleError::LeavesConstraints { .. }) if *is_optional => return Ok(None),
+                Err(SampleError::LeavesConstraints { index, share, .. }) => {
+                    return Err(SampleError::LeavesConstraints { generator: number, index, share }.into());
+                }
+                found => found?,
+            };
             let pair = |finding: &Contribution<N>| [finding.value, finding.tolerance];
-            Ok(Symmetry {
+            Ok(Some(Symmetry {
                 generator: found.generator.clone(),
                 is_symmetry_of_lagrangian: found.is_symmetry_of_lagrangian(),
                 force_does_work: found.force_does_work(),
@@ -142,47 +152,9 @@ where
                 is_consistent: found.is_consistent(),
                 findings: [pair(&found.lagrangian), pair(&found.force), pair(&found.defect)],
                 text: found.to_string(),
-            })
+            }))
         };
-        generators.iter().map(judged).collect()
-    }
-
-    fn ledger(
-        &self,
-        fields: &S::Fields,
-        given: Given<'_>,
-        h: f64,
-        start: &State<f64, N>,
-        steps: u64,
-        watch: &Watch<'_>,
-    ) -> Result<Ledger, Refusal> {
-        let system = S::view(fields, given.inputs, given.time);
-        ledger((&system, self.0, h), given.time, start, steps, watch)
-    }
-}
-
-/// A rule, of a system with constraints.
-pub struct OnConstraints<M>(pub M);
-
-impl<S, M, const N: usize> Checks<S, N> for OnConstraints<M>
-where
-    S: System<N>,
-    for<'a> S::View<'a>: Discrete<M, N> + ForceWork<M, N>,
-    M: Copy + Send + Sync + 'static,
-{
-    /// Refused: on constraints a step is that of the restricted pair, of which samples are not taken.
-    fn symmetries(
-        &self,
-        _: &S::Fields,
-        _: Given<'_>,
-        _: f64,
-        _: &[Affine],
-        _: &Region<'_>,
-        _: &Watch<'_>,
-    ) -> Result<Vec<Symmetry>, Refusal> {
-        Err(Refusal::OnConstraints(
-            "symmetries: those of systems without constraints; look at a momentum along a run, or take minimal coordinates",
-        ))
+        generators.iter().enumerate().map(judged).filter_map(Result::transpose).collect()
     }
 
     fn ledger(

@@ -203,12 +203,12 @@ fn states(
 /// Translations along each coordinate, and rotations in the plane of each two.
 fn of_space(n: usize) -> Vec<Affine> {
     let unit = |k: usize| (0..n).map(|i| if i == k { 1.0 } else { 0.0 }).collect::<Vec<_>>();
-    let translation =
-        |k: usize| Affine { name: format!("translation({k})"), linear: vec![0.0; n * n], constant: unit(k) };
+    let of = |name, linear, constant| Affine { name, linear, constant, is_optional: true };
+    let translation = |k: usize| of(format!("translation({k})"), vec![0.0; n * n], unit(k));
     let rotation = |(from, to): (usize, usize)| {
         let mut linear = vec![0.0; n * n];
         (linear[to * n + from], linear[from * n + to]) = (1.0, -1.0);
-        Affine { name: format!("rotation({from}, {to})"), linear, constant: vec![0.0; n] }
+        of(format!("rotation({from}, {to})"), linear, vec![0.0; n])
     };
     let planes = (0..n).flat_map(|from| (from + 1..n).map(move |to| (from, to)));
     (0..n).map(translation).chain(planes.map(rotation)).collect()
@@ -223,7 +223,8 @@ fn affine(given: &Bound<'_, PyDict>, n: usize) -> PyResult<Vec<Affine>> {
         if linear.shape() != [n, n] {
             return Err(arguments::of_shape(&name, &format!("({n}, {n})"), linear.shape()));
         }
-        Ok(Affine { linear: arguments::numbers(&linear), constant: vector(&name, &constant, n)?, name })
+        let (linear, constant) = (arguments::numbers(&linear), vector(&name, &constant, n)?);
+        Ok(Affine { name, linear, constant, is_optional: false })
     };
     given.iter().map(generator).collect()
 }
@@ -588,7 +589,8 @@ impl System {
     /// What translations and rotations do to the discrete Lagrangian, to the force and to their momenta: a report for each.
     ///
     /// They are judged on segments (q0, q1) that are spread evenly: q0 in the box from low to high, each coordinate of
-    /// q1 − q0 within ∓reach, about h times the speed.
+    /// q1 − q0 within ∓reach, about h times the speed. Both ends are moved onto the constraints, if there are any, and
+    /// translations and rotations that leave these are left out.
     ///
     /// Parameters
     /// ----------

@@ -235,7 +235,10 @@ pub fn of_refusal(py: Python<'_>, refusal: Refusal, rule: Option<&str>, rules: &
         Refusal::NotChecked => PyValueError::new_err(
             "rule: symmetries and energies are accounted for by midpoint, trapezoidal, fitted and one_sided rules",
         ),
-        Refusal::OnConstraints(instead) => PyValueError::new_err(instead),
+        Refusal::NotHolonomic => PyValueError::new_err(
+            "symmetries: those of systems without constraints of velocity, which leave a step without a discrete \
+             Lagrangian; ask `energy_ledger`, or look at a momentum along a run",
+        ),
         Refusal::Samples(error) => PyValueError::new_err(error.to_string()),
         Refusal::NoError => PyValueError::new_err(
             "tolerance: the rules of this system offer no method to an error asked for; give h and steps",

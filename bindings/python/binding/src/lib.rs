@@ -192,7 +192,7 @@ macro_rules! offers {
                 name: $name,
                 steps: probe.steps_in_lanes().or_else(|| probe.steps()),
                 driven: probe.driven_steps(),
-                checks: probe.checks().or_else(|| probe.checks_on_constraints()),
+                checks: probe.checks(),
             }
         },)*]
     };

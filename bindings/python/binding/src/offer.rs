@@ -224,11 +224,6 @@ pub trait NotOffered<S: System<N>, const N: usize> {
         None
     }
 
-    /// `None`: of these discrete objects no energy is accounted for.
-    fn checks_on_constraints(&self) -> Option<Box<dyn Checks<S, N>>> {
-        None
-    }
-
     /// `None`: no error can be asked of the system.
     fn steps_to_error(&self) -> Option<Box<dyn StepsToError<S, N>>> {
         None
@@ -398,7 +393,7 @@ where
 
 impl<S, M, const N: usize> Probe<S, M, N>
 where
-    S: System<N, Multipliers = ()>,
+    S: System<N>,
     for<'a> S::View<'a>: ClosedForm<M, N> + Discrete<M, N> + ForceWork<M, N>,
     M: Copy + Send + Sync + 'static,
 {
@@ -406,19 +401,6 @@ where
     #[must_use]
     pub fn checks(&self) -> Option<Box<dyn Checks<S, N>>> {
         Some(Box::new(checks::ByRule(self.method)))
-    }
-}
-
-impl<S, M, const N: usize> Probe<S, M, N>
-where
-    S: System<N>,
-    for<'a> S::View<'a>: ClosedForm<M, N> + Discrete<M, N> + ForceWork<M, N>,
-    M: Copy + Send + Sync + 'static,
-{
-    /// The checks that constraints leave.
-    #[must_use]
-    pub fn checks_on_constraints(&self) -> Option<Box<dyn Checks<S, N>>> {
-        Some(Box::new(checks::OnConstraints(self.method)))
     }
 }
 

@@ -28,8 +28,8 @@ pub enum Refusal {
     NotWatched,
     /// The rule has no discrete objects by formulas.
     NotChecked,
-    /// Systems with constraints are not asked that: for which argument or call, and what to do instead.
-    OnConstraints(&'static str),
+    /// Constraints of velocity leave no discrete Lagrangian to be asked for symmetries.
+    NotHolonomic,
     /// The samples say nothing.
     Samples(SampleError),
     /// Of this system no error can be asked.

@@ -71,4 +71,23 @@ impl Rods {
     }
 }
 
-dalembert_python::module!(dalembert_trials { Cut, Edited, Rods });
+parameters! {
+    /// A skate on a slope; q are its place in m and its direction.
+    pub struct Skate {
+        /// Acceleration along the slope, m/s².
+        pub a: f64,
+    }
+}
+
+#[rayleigh_system]
+impl Skate {
+    fn lagrangian(&self, q: [f64; 3], v: [f64; 3]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + self.a * q[0]
+    }
+
+    fn velocity_constraints(&self, q: [f64; 3], v: [f64; 3]) -> [f64; 1] {
+        [q[2].sin() * v[0] - q[2].cos() * v[1]]
+    }
+}
+
+dalembert_python::module!(dalembert_trials { Cut, Edited, Rods, Skate });

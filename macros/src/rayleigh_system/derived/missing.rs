@@ -1,4 +1,4 @@
-//! Operations of L, R and f that have no derivative at some arguments, for the errors of steps.
+//! Operations of L, R, f and constraints that have no derivative at some arguments, for the errors of steps.
 //!
 //! The arguments are written out, each with the condition that its operation stands under: what a rejected
 //! branch holds is no cause.
@@ -16,10 +16,10 @@ const MOST: usize = MOST_OPERATIONS / 8;
 /// The most operations that one function is asked about.
 const MOST_PLACES: usize = 64;
 
-/// The operations of L, R or a component of f that have no derivative at some arguments.
+/// The operations of L, R, a component of f or a constraint that have no derivative at some arguments.
 pub struct Places {
     pub part: Part,
-    /// The component of f.
+    /// The component of f, or the constraint; 0 of L and R.
     pub index: usize,
     pub places: Vec<Place>,
     /// One or two for each operation.
@@ -44,24 +44,26 @@ struct Singular {
 
 impl Deriving<'_> {
     /// The operations without a derivative, of the system and of its view if that has more functions.
-    pub(super) fn places(&mut self) -> [Vec<Places>; 2] {
+    pub(super) fn places(&mut self, constraints: &[Vec<Node>; 2]) -> [Vec<Places>; 2] {
         [Home::System, Home::View].map(|home| {
             let has = |part: Part| home == Home::View || self.system.home_of(part) == home;
             if home == Home::View && !self.system.has_view() {
                 return Vec::new();
             }
-            let force = self.force.unwrap_or_default().iter().map(|&root| (Part::Force, root));
-            let parts = [(Part::Lagrangian, self.lagrangian)].into_iter();
-            let parts = parts.chain(self.rayleigh.map(|root| (Part::Rayleigh, root)));
-            let own: Vec<_> = parts.chain(force).filter(|&(part, _)| has(part)).collect();
-            let first = own.iter().position(|&(part, _)| part == Part::Force).unwrap_or_default();
-            let places = own.into_iter().enumerate().filter_map(|(i, (part, root))| {
+            let alone = [(Part::Lagrangian, self.lagrangian)].into_iter();
+            let alone = alone.chain(self.rayleigh.map(|root| (Part::Rayleigh, root)));
+            let force = self.force.unwrap_or_default().iter().enumerate();
+            let force = force.map(|(index, &root)| (Part::Force, index, root));
+            let held = constraints.iter().flatten().enumerate();
+            let held = held.map(|(index, &root)| (Part::Constraints, index, root));
+            let all = alone.map(|(part, root)| (part, 0, root)).chain(force).chain(held);
+            let own: Vec<_> = all.filter(|&(part, ..)| has(part)).collect();
+            let places = own.into_iter().filter_map(|(part, index, root)| {
                 let (places, arguments) = self.singular_operations(root);
                 if places.is_empty() {
                     return None;
                 }
                 let arguments = self.made(Of::Arguments(part), home, &arguments).ok()?;
-                let index = if part == Part::Force { i - first } else { 0 };
                 Some(Places { part, index, places, arguments })
             });
             places.collect()

@@ -65,7 +65,8 @@ pub enum Of {
     Along(Part),
     /// Sizes of terms in ∂L/∂v and in G.
     CancellingTerms,
-    /// Arguments of operations that have no derivative at some of them, in L, R or a component of f.
+    /// Arguments of operations that have no derivative at some of them, in L, R, a component of f or a
+    /// constraint.
     Arguments(Part),
     /// p0, and the entries that the form of ∂p0/∂v̄ keeps.
     StepKernel(Points),

@@ -16,7 +16,8 @@ pub(super) fn coordinate<S: Precision>(by_one: [&[S]; 2], by_two: [&[S]; 3]) -> 
 pub(super) fn component<S: Precision>(value: &[S], by_one: [&[S]; 2]) -> Option<(usize, usize)> {
     let size = value.len();
     let coordinate = |i: usize| {
-        let first = (0..size).find(|&j| by_one.into_iter().any(|of| is_lost(of, i + size * j)));
+        let first = (0..by_one[0].len() / size.max(1))
+            .find(|&j| by_one.into_iter().any(|of| is_lost(of, i + size * j)));
         first.or(if is_lost(value, i) { Some(i) } else { None })
     };
     (0..size).find_map(|i| Some((i, coordinate(i)?)))

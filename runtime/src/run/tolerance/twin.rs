@@ -64,3 +64,54 @@ where
     let is_finite = carried.q.iter().chain(&carried.p).all(|x| x.is_finite());
     is_finite.then_some((carried, evaluations))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::phase::times;
+    use super::*;
+    use crate::{Discretise, Midpoint, rayleigh_system};
+
+    /// A load on a rope that is let out.
+    struct Crane;
+
+    #[rayleigh_system]
+    impl Crane {
+        fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+            0.5 * (v[0] * v[0] + v[1] * v[1]) - 9.81 * q[1]
+        }
+
+        fn constraints(&self, q: [f64; 2], t: f64) -> [f64; 1] {
+            let length = 1.0 + 0.5 * t;
+            [q[0] * q[0] + q[1] * q[1] - length * length]
+        }
+    }
+
+    /// An error at the time `elapsed` as a twin carries it over two steps of the rule, as the derivatives of
+    /// these do, and as it was.
+    fn carried_two_ways(elapsed: f64) -> [State<f64, 2>; 3] {
+        let h = 0.1;
+        let start = State::nearest(&Crane.at_time(elapsed), [0.6, -0.8], [0.4, 0.1]).unwrap();
+        let error = State { q: [3e-7, 1e-7].into(), p: [-2e-7, 5e-7].into() };
+        let (mut state, mut by_steps) = (start, error);
+        for k in 0..2 {
+            let later = Crane.at_time(elapsed + f64::from(k) * h);
+            let (step, a) = later.by(Midpoint, h).linearized_step(&state).unwrap();
+            (state, by_steps) = (step.state, times(&a, &by_steps));
+        }
+        let (view, scale) = (Crane.at_time(0.0), Scale::new(&start));
+        let span = [elapsed, 2.0 * h, 0.9 * ANGLE / h];
+        let (by_twin, _) = carried((&view, Midpoint), &start, &error, span, &scale, &mut None).unwrap();
+        [by_twin, by_steps, error]
+    }
+
+    #[test]
+    fn a_twin_is_put_on_the_constraints_of_its_own_time() {
+        for elapsed in [0.0, 0.8, 3.0] {
+            let [by_twin, by_steps, before] = carried_two_ways(elapsed);
+            let apart = |a: &State<f64, 2>, b: &State<f64, 2>| (a.q - b.q).amax().max((a.p - b.p).amax());
+            assert!(apart(&by_twin, &by_steps) < 1e-12, "{elapsed}: {by_twin:?} {by_steps:?}");
+            // Positive control: an error that is not carried is another.
+            assert!(apart(&before, &by_steps) > 1e-7);
+        }
+    }
+}

@@ -7,6 +7,7 @@ use nalgebra::{SMatrix, SVector};
 use super::bordered::{Bordered, rounding_of_reactions};
 use super::nearest::{dependence, dependent, held, require_on};
 use super::rows::Rows;
+use super::undefined::undefined_on;
 use crate::numbers::{Factored, NewtonMatrix, Scalar};
 use crate::step::equation::{OfRule, StepEquation};
 use crate::step::{ClosedForm, Discrete, Fused, Momenta, Segment, State, Step, StepError, StepKernel};
@@ -47,7 +48,7 @@ where
     /// [`StepError::OffConstraint`] of a state that is off a constraint.
     pub(super) fn new(system: &'a L, state: &'a State<L::Scalar, N>) -> Result<Self, StepError> {
         let (values, gradients) = system.constraint_gradients(&state.q);
-        require_on(&values, &gradients, &state.q)?;
+        require_on(system, (&values, &gradients), &state.q)?;
         let (free, directions, last) = (OfRule::new(system), gradients.transpose(), RefCell::new(None));
         let (is_frozen, rounding) = (Cell::new(true), Cell::new(nalgebra::zero()));
         Ok(Self { system, free, state, directions, is_frozen, rounding, last })
@@ -191,6 +192,9 @@ where
             }
             // Singular itself, or the complement is: what is solved with it says so.
             None if matrix.factored().is_none() => StepKernel { p0, matrix },
+            None if undefined_on::<L, N, M>(self.system, segment).is_some() => {
+                StepKernel { p0: SVector::repeat(L::Scalar::constant(f64::NAN)), matrix }
+            }
             None => StepKernel { p0, matrix: NewtonMatrix::zero() },
         };
         if let Ok(mut last) = self.last.try_borrow_mut() {
@@ -243,6 +247,6 @@ where
     }
 
     fn cause(&self, segment: &Segment<L::Scalar, N>) -> Option<StepError> {
-        self.free.cause(segment)
+        self.free.cause(segment).or_else(|| undefined_on::<L, N, M>(self.system, segment))
     }
 }

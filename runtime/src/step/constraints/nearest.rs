@@ -5,6 +5,7 @@ use nalgebra::{SMatrix, SVector};
 use super::complement::Complement;
 use super::inertia::Inertia;
 use super::rows::with_last;
+use super::undefined::undefined;
 use crate::numbers::linear::by_columns;
 use crate::numbers::{Scalar, linear};
 use crate::step::newton::{estimated_floor, held_against};
@@ -25,7 +26,9 @@ const ROUNDINGS: f64 = 8.0;
 
 impl<S: Scalar, const N: usize> State<S, N> {
     /// The state on the constraints of `system` that is nearest to (q, v), in the metric of the mass ∂²L/∂v²:
-    /// q first, then v at q.
+    /// q first, then v at q. The configuration is found along the normals, by Newton's method: off the
+    /// nearest one by about the square of the distance over the radius of curvature, at most. Where all
+    /// constraints are of velocity, q stays as it is.
     ///
     /// ```
     /// use dalembert::{State, rayleigh_system};
@@ -49,8 +52,8 @@ impl<S: Scalar, const N: usize> State<S, N> {
     ///
     /// # Errors
     /// [`StepError::DependentConstraints`] where the gradients of the constraints do not tell where to go, or
-    /// no state in reach is on all of them; those of [`State::from_velocity`](crate::State::from_velocity)
-    /// but for the constraints.
+    /// no state in reach is on all of them; [`StepError::NoDerivative`] where one has no gradient; those of
+    /// [`State::from_velocity`](crate::State::from_velocity) but for the constraints.
     pub fn nearest<L, const M: usize>(
         system: &L,
         q: impl Into<SVector<S, N>>,
@@ -66,8 +69,10 @@ impl<S: Scalar, const N: usize> State<S, N> {
         for _ in 0..if L::OF_VELOCITY < M { MOST } else { 0 } {
             let at = AtPoint::<S, N, M>::of_configuration(system, &q, &v)?;
             let correction = at.answers * at.complement.solve(&at.values);
-            q -= correction;
-            StepError::require_finite(&q, Quantity::Configuration)?;
+            let next = q - correction;
+            StepError::require_finite(&next, Quantity::Configuration)
+                .map_err(|_| undefined_or_dependent::<L, N, M>(system, &q))?;
+            q = next;
             let mut entries = correction.as_slice().iter().zip(q.as_slice());
             if entries.all(|(correction, q)| correction.abs() <= q.abs() * S::EPSILON) {
                 break;
@@ -149,10 +154,7 @@ impl<S: Scalar, const N: usize, const M: usize> AtPoint<S, N, M> {
         let product = gradients * answers;
         match Complement::of(&beside.map_or(product, |beside| product + beside)) {
             Some(complement) => Ok(Self { values, gradients, inertia, answers, complement }),
-            None => {
-                StepError::require_finite(&directions, Quantity::Derivatives)?;
-                Err(dependence::<L, N, M>(system, q))
-            }
+            None => Err(undefined_or_dependent::<L, N, M>(system, q)),
         }
     }
 }
@@ -170,15 +172,22 @@ where
     if L::IS_PRESCRIBED { system.constraint_rates(q, v).0 } else { at.gradients * v }
 }
 
-/// Fails where q is off a constraint.
-pub(super) fn require_on<S: Scalar, const N: usize, const M: usize>(
-    values: &SVector<S, M>,
-    gradients: &SMatrix<S, M, N>,
-    q: &SVector<S, N>,
-) -> Result<(), StepError> {
+/// Fails where q is off a constraint, or one is no number there.
+pub(super) fn require_on<L, const N: usize, const M: usize>(
+    system: &L,
+    (values, gradients): (&SVector<L::Scalar, M>, &SMatrix<L::Scalar, M, N>),
+    q: &SVector<L::Scalar, N>,
+) -> Result<(), StepError>
+where
+    L: Constrained<N, M>,
+{
     match off(values, gradients, q) {
         None => Ok(()),
-        Some((constraint, value)) => Err(StepError::OffConstraint { constraint, value: value.widen() }),
+        Some((constraint, value)) => {
+            StepError::require_finite(q, Quantity::Configuration)?;
+            let off = StepError::OffConstraint { constraint, value: value.widen() };
+            Err(undefined::<L, N, M>(system, q, &nalgebra::zero()).unwrap_or(off))
+        }
     }
 }
 
@@ -209,7 +218,7 @@ where
     let at_rest = system.lagrangian_derivatives(&q, &rest);
     // Where L is quadratic in v, M is the mass everywhere.
     let at = AtPoint::<_, N, M>::of(system, &q, Inertia::of(system, &q, &rest, &at_rest.d22)?)?;
-    require_on(&at.values, &at.gradients, &q)?;
+    require_on(system, (&at.values, &at.gradients), &q)?;
     let mut v = at.inertia.solve(&(p - at_rest.d2));
     let mut moved = p;
     // Once, unless reactions are large and cancel, as at a light body.
@@ -247,6 +256,21 @@ fn is_held<S: Scalar, const N: usize, const M: usize>(
     let unit = S::EPSILON * S::constant(ROUNDINGS);
     let most = sizes(gradients, v) * unit;
     left.as_slice().iter().zip(most.as_slice()).all(|(left, most)| left.abs() <= *most)
+}
+
+/// The error of constraints of which one has no value or no gradient at q, or which do not determine their
+/// reactions.
+#[cold]
+#[inline(never)]
+fn undefined_or_dependent<L, const N: usize, const M: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+) -> StepError
+where
+    L: Constrained<N, M>,
+{
+    let undefined = undefined::<L, N, M>(system, q, &nalgebra::zero());
+    undefined.unwrap_or_else(|| dependence::<L, N, M>(system, q))
 }
 
 /// The error of constraints that do not determine their reactions at q.

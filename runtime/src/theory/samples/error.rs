@@ -77,8 +77,8 @@ impl fmt::Display for SampleError {
             ),
             Self::OffConstraint { index, constraint, value } => write!(
                 f,
-                "sample {index} is off constraint {constraint}, whose value there is {value:.3e}; move the samples by \
-                 `on_constraints`"
+                "sample {index} is off constraint {constraint}, whose value there is {value:.3e}; `on_constraints` \
+                 moves samples there, unless they are too far off"
             ),
             Self::LeavesConstraints { generator, index, share } => write!(
                 f,
@@ -92,7 +92,7 @@ impl fmt::Display for SampleError {
             Self::StepSize => f.write_str("the step size is not a normal number; give a finite h ≠ 0"),
             Self::NonFinite { index } => write!(
                 f,
-                "NaN or infinite value at sample {index}; keep the samples where L, R, f and the generators are smooth"
+                "NaN or infinite value at sample {index}; keep the samples where L, R, f, constraints and generators are smooth"
             ),
         }
     }

@@ -1,4 +1,4 @@
-//! Operations of L, R and f that have no derivative at some arguments, for the errors of steps.
+//! Operations of L, R, f and constraints that have no derivative at some arguments, for the errors of steps.
 
 use super::super::super::derived::Places;
 use super::*;
