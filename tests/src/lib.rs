@@ -5,7 +5,6 @@ pub mod by_hand;
 pub mod convergence;
 pub mod damped_oscillator;
 pub mod documented;
-pub mod double_double;
 pub mod draws;
 #[cfg(feature = "all-claims")]
 pub mod hard;

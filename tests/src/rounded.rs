@@ -3,7 +3,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::double_double::DoubleDouble;
+use double_double::DoubleDouble;
 
 /// u = ε/2, the relative error of one rounding.
 const UNIT: f64 = 0.5 * f64::EPSILON;

@@ -12,9 +12,19 @@ use crate::{project, tools};
 const COMPILER: &str = "1.95.0";
 const CHECKSUM: &str = "7b76db5b880a77f9e52975d2baa6209d2f76d2c9c2789515c3088cb960e2c83b";
 
+/// The folder of what is built with a `core` of its own, from the workspace of the firmware. proc-macro2 asks
+/// for the variable that allows it: in one folder with the rest all that uses the macros would be built anew.
+pub const BUILT: &str = "target/device";
+
+/// That folder, from anywhere.
+pub fn built() -> PathBuf {
+    project::root().join("firmware").join(BUILT)
+}
+
 /// Lets the commands of the shell build `core`. Where its sources cannot be had the error says why.
 pub fn provide(shell: &Shell) -> Result<()> {
     shell.set_var("__CARGO_TESTS_ONLY_SRC_ROOT", library(shell)?);
+    shell.set_var("CARGO_TARGET_DIR", built());
     shell.set_var("RUSTC_BOOTSTRAP", "1");
     Ok(())
 }

@@ -22,10 +22,12 @@ pub fn run(only: Option<&str>) -> Result<()> {
     let name = only.unwrap_or_default();
     ensure!(!machines.is_empty(), "no machine is {name:?}: there are m4f, m7, m33 and rv");
     let shell = project::shell()?;
+    let host = shell.clone();
+    host.change_dir("firmware");
     // RISC-V's compiler is not fetched where it is not asked for.
     cross_tools::prepare(&shell, only.is_none_or(|only| only == "rv"))?;
     shell.change_dir("firmware");
-    cmd!(shell, "cargo build --quiet --release -p firmware-host -p firmware-in-c --bins").run()?;
+    cmd!(host, "cargo build --quiet --release -p firmware-host -p firmware-in-c --bins").run()?;
     let functions = programs::headers(&shell)?;
     for machine in machines {
         for level in ["3", "s"] {

@@ -12,6 +12,7 @@ pub const LEFT: &str = "a_panic_is_left_in_the_program";
 pub fn run(levels: &[&str]) -> Result<()> {
     let shell = project::shell()?;
     shell.change_dir("firmware");
+    let _panic = shell.push_env("CARGO_PROFILE_RELEASE_PANIC", "abort");
     for level in levels {
         ensure!(["3", "s"].contains(level), "the proof is of opt-level 3 and s, not {level}");
         let _level = shell.push_env("CARGO_PROFILE_RELEASE_OPT_LEVEL", level);

@@ -1,11 +1,12 @@
 //! What a program must compute at a point: values in the arithmetic of its own numbers, derivatives by
 //! num-dual and by central differences in 32 digits.
 
+use double_double::DoubleDouble;
+
 use super::interpret::{Evaluated, Exit, Interpreter, Result};
 use super::number::{Dual, Number, VARIABLES};
 use super::point::Point;
 use super::syntax::Program;
-use dalembert_tests::double_double::DoubleDouble;
 
 /// Steps of the difference quotients: their errors are about h⁴ times a derivative of order 5 or 6.
 const STEP: f64 = 1e-6;

@@ -1,9 +1,8 @@
 //! The numbers that a program is evaluated over: doubles and singles as rustc computes them, duals for
 //! derivatives, numbers of two doubles for difference quotients.
 
+use double_double::DoubleDouble;
 use num_dual::{Dual2SVec64, DualNum};
-
-use dalembert_tests::double_double::DoubleDouble;
 
 /// Entries of (q, v) at most.
 pub const VARIABLES: usize = 6;

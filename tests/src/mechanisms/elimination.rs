@@ -1,6 +1,6 @@
 //! Linear equations in twice the precision.
 
-use crate::double_double::DoubleDouble;
+use double_double::DoubleDouble;
 
 /// Rows of a matrix.
 pub(super) type Rows = Vec<Vec<DoubleDouble>>;

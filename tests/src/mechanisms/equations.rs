@@ -2,8 +2,9 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use double_double::DoubleDouble;
+
 use super::{Force, Joint, Shape, Values};
-use crate::double_double::DoubleDouble;
 use crate::rounded::Rounded;
 
 /// A number that equations are evaluated over.

@@ -1,8 +1,9 @@
 //! Steps that were taken, held against the equations.
 
+use double_double::DoubleDouble;
+
 use super::elimination::{Factors, Rows};
 use super::oracle::{Curve, Equations, Problem, Root, independent};
-use crate::double_double::DoubleDouble;
 use crate::rounded::Rounded;
 
 /// u = ε/2.

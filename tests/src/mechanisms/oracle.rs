@@ -8,10 +8,11 @@
 //! Of redundant constraints those are left out whose gradients depend on the others' at q0: the motion
 //! depends on N alone.
 
+use double_double::DoubleDouble;
+
 use super::elimination::{Factors, Rows};
 use super::equations::{Rule, dot};
 use super::{Shape, Values};
-use crate::double_double::DoubleDouble;
 
 /// Share of a gradient that the others leave, below which its constraint is redundant.
 const REDUNDANT: f64 = 1e-12;

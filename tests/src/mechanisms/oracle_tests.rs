@@ -1,10 +1,11 @@
 //! The second program beside a third: steps in angles, without constraints, and a reference in 40 digits.
 
+use double_double::DoubleDouble;
+
 use super::elimination::{Factors, Rows};
 use super::equations::{Rule, dot};
 use super::oracle::{Curve, Equations, Problem, numbers};
 use super::{Joint, JointValues, Shape, Values};
-use crate::double_double::DoubleDouble;
 
 /// Points in a row in the plane, each on a rod of length 1 from the one before, the first from 0.
 const ROW: Shape = Shape {

@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use dalembert::tolerance::{WithGauss, WithSplittings};
 use dalembert::{State, Trapezoidal};
+use double_double::DoubleDouble;
 
 use super::Motion;
 use super::measured::Reference;
@@ -12,7 +13,6 @@ use super::systems::{
     Chain, DoublePendulum, Falling, Forced, HenonHeiles, Kepler, LINKS, Mathieu, Oscillator, Pair, Pendulum,
     ShakenPivot, Struck, Swing, TwoSprings,
 };
-use crate::double_double::DoubleDouble;
 
 /// All methods, of systems with explicit steps; those of others.
 const EXPLICIT: WithGauss<WithSplittings<Trapezoidal>> = WithGauss(WithSplittings(Trapezoidal));

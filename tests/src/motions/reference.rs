@@ -1,7 +1,7 @@
 //! Reference motions: the modified midpoint rule, extrapolated (W. B. Gragg 1965; R. Bulirsch and J. Stoer
 //! 1966), in numbers of twice the digits.
 
-use crate::double_double::DoubleDouble;
+use double_double::DoubleDouble;
 
 /// The rows of the extrapolation table: order 2·ROWS.
 const ROWS: usize = 10;

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use dalembert::generated::{Angle, Lanes, Members, Reciprocal};
 use dalembert::system::Blank;
-use dalembert_tests::double_double::DoubleDouble;
+use double_double::DoubleDouble;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 

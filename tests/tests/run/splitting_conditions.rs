@@ -1,7 +1,7 @@
 //! The conditions of order of the splittings: by trees, to the digits published, and with damping.
 
 use dalembert::Splitting;
-use dalembert_tests::double_double::DoubleDouble;
+use double_double::DoubleDouble;
 
 type Number = DoubleDouble;
 

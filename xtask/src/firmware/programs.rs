@@ -7,6 +7,7 @@ use anyhow::{Result, ensure};
 use xshell::{Cmd, Shell, cmd};
 
 use super::machines::Machine;
+use crate::core_sources::BUILT;
 use crate::cross_tools::CORE;
 use crate::tools;
 
@@ -55,7 +56,7 @@ fn functions(header: &str, prefix: &str) -> BTreeSet<String> {
 impl Programs<'_> {
     /// The program in Rust.
     pub fn device(&self) -> String {
-        format!("target/{}/release/firmware-device", self.machine.target)
+        format!("{BUILT}/{}/release/firmware-device", self.machine.target)
     }
 
     /// Builds with cargo.
@@ -82,7 +83,7 @@ impl Programs<'_> {
         let link = link.arg(format!("-I{TEMPLATE}/boards")).args(["-o", IN_C, "in_c/main.c"]);
         let link = link
             .arg(format!("{TEMPLATE}/{start}"))
-            .arg(format!("target/{target}/release/libfirmware_in_c.a"));
+            .arg(format!("{BUILT}/{target}/release/libfirmware_in_c.a"));
         let link = link.args(["-T", script, "-Wl,--gc-sections,-z,noexecstack"]);
         let link = link.args(self.functions.iter().map(|function| format!("-Wl,--undefined={function}")));
         Ok(link.args(arguments).ignore_status().output()?)

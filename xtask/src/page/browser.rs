@@ -34,7 +34,7 @@ pub fn run(picture: Option<PathBuf>) -> Result<()> {
     let tools = tools::require(&shell, &[("python3", "python3"), ("chromium", "chromium")]);
     tools.map_err(|error| NotChecked::new("PAGE", error))?;
     // Where the firmware is built: what both depend on is compiled once, with the same variables.
-    let target = project::root().join("firmware/target");
+    let target = core_sources::built();
     shell.set_var("CARGO_TARGET_DIR", &target);
     let of_the_module = if has_core(&shell)? {
         None

@@ -29,7 +29,6 @@ pub fn follow(shell: &Shell, is_first_alone: bool) -> Result<()> {
     show(&commands);
     let home = shell.create_temp_dir()?;
     move_home(&shell, home.path())?;
-    shell.set_var("CARGO_TARGET_DIR", project::root().join("firmware/target"));
     shell.set_var("CARGOFLAGS", cross_tools::CORE.join(" "));
     let output = script(&shell, &commands).ignore_status().output()?;
     let said = tools::said(&output);

@@ -4,8 +4,8 @@
 use dalembert::State;
 use dalembert::step::Step;
 
-use dalembert_tests::double_double::DoubleDouble;
 use dalembert_tests::rounded::Rounded;
+use double_double::DoubleDouble;
 
 /// A covector or vector of N coordinates.
 pub type Vector<const N: usize> = [Rounded; N];

@@ -1,7 +1,7 @@
 //! Gauss–Legendre collocation in twice the precision: nodes as roots of Legendre polynomials, the rest by
 //! integrating Lagrange polynomials, exactly up to rounding.
 
-use dalembert_tests::double_double::DoubleDouble;
+use double_double::DoubleDouble;
 
 /// Weights b and the matrix a of the collocation.
 #[derive(Clone, Debug)]

@@ -1,5 +1,8 @@
 //! Sums of two `f64`: about 31 digits (T. J. Dekker, A floating-point technique for extending the available
 //! precision, Numerische Mathematik 18, 1971), with the elementary functions that a body may call.
+//!
+//! Built optimised for the tests, too: they spend most of their time in it. What is inlined into a program
+//! that is not would be compiled there.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -49,6 +52,7 @@ fn product(a: f64, b: f64) -> DoubleDouble {
 
 impl Add for DoubleDouble {
     type Output = Self;
+    #[cfg_attr(debug_assertions, inline(never))]
     fn add(self, other: Self) -> Self {
         let (high, low) = (sum(self.high, other.high), sum(self.low, other.low));
         let first = quick_sum(high.high, high.low + low.high);
@@ -65,6 +69,7 @@ impl Neg for DoubleDouble {
 
 impl Sub for DoubleDouble {
     type Output = Self;
+    #[cfg_attr(debug_assertions, inline(never))]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
@@ -72,6 +77,7 @@ impl Sub for DoubleDouble {
 
 impl Mul for DoubleDouble {
     type Output = Self;
+    #[cfg_attr(debug_assertions, inline(never))]
     fn mul(self, other: Self) -> Self {
         let main = product(self.high, other.high);
         quick_sum(main.high, main.low + (self.high * other.low + self.low * other.high))
@@ -80,6 +86,7 @@ impl Mul for DoubleDouble {
 
 impl Div for DoubleDouble {
     type Output = Self;
+    #[cfg_attr(debug_assertions, inline(never))]
     fn div(self, other: Self) -> Self {
         let first = self.high / other.high;
         if !first.is_finite() || !other.high.is_finite() {
