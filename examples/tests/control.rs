@@ -8,18 +8,18 @@ mod arm;
 mod cart_pole;
 
 use dalembert::nalgebra::{matrix, vector};
-use dalembert_examples::control::{self, Estimate, Linearised};
+use dalembert_examples::control::{Estimate, Linearised, Regulator};
 
 /// x₁ = x + u with unit weights: P = 1 + P/(1 + P) is the golden ratio, and K = P/(1 + P) = P − 1.
 #[test]
 fn the_regulator_of_an_integrator_is_the_golden_ratio() {
     let model = Linearised { next: vector![0.0], a: matrix![1.0], b: matrix![1.0] };
-    let gain = control::regulator(&model, &matrix![1.0], &matrix![1.0]).unwrap();
+    let gain = Regulator::of(&model, &matrix![1.0], &matrix![1.0]).unwrap().gain;
     let golden = (1.0 + 5.0_f64.sqrt()) / 2.0;
     assert!((gain[0] - (golden - 1.0)).abs() < 1e-11, "{gain}");
     // Positive control: what no input reaches cannot be stabilised.
     let model = Linearised { b: matrix![0.0], a: matrix![1.1], ..model };
-    assert!(control::regulator(&model, &matrix![1.0], &matrix![1.0]).is_err());
+    assert!(Regulator::of(&model, &matrix![1.0], &matrix![1.0]).is_err());
 }
 
 /// The dual of the same: the filter's covariance before a measurement settles at the golden ratio.
