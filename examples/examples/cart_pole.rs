@@ -18,7 +18,7 @@ use anyhow::{Context, Result, ensure};
 use dalembert::derivative::PhaseMatrix;
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::{Discretise, State, StepError, Trapezoidal, rayleigh_system};
-use dalembert_examples::control::{self, Linearised, Plan, Problem, Quadratic, SensorClock};
+use dalembert_examples::control::{self, Linearised, Plan, Problem, Quadratic, Regulator, SensorClock};
 use dalembert_examples::picture::{self, Curve, Dash, Mark, Panel, colour, linear};
 use rand::SeedableRng;
 use rand::rngs::StdRng;
@@ -204,7 +204,7 @@ pub fn swing_up() -> Result<(Plan<4, 1>, usize)> {
 pub fn upright_gain() -> Result<SMatrix<f64, 1, 4>> {
     let model = control::linearised(&PLANT.driven([0.0]), &target(), H)?;
     let (_, _, weights) = distance(&target(), HELD)?;
-    control::regulator(&model, &weights, &matrix![0.05])
+    Ok(Regulator::of(&model, &weights, &matrix![0.05])?.gain)
 }
 
 /// What happened, period by period.

@@ -2,10 +2,14 @@
 //! and B: the linear-quadratic regulator, iterative LQR over a horizon, and the extended Kalman filter; and
 //! the clock of a sensor.
 
+mod regulator;
+
 use anyhow::{Context, Result};
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::step::DiscreteDriven;
 use dalembert::{Discrete, Discretise, Midpoint, State, StepError};
+
+pub use regulator::Regulator;
 
 /// A step of the model with its derivatives.
 #[derive(Clone, Copy, Debug)]
@@ -60,32 +64,6 @@ where
     let step = system.by(Midpoint, h).linearized(&state(x))?;
     let (a, b) = (step.by_state()?.assembled(), step.by_input()?.assembled());
     Ok(Linearised { next: vector(&step.step().state), a, b })
-}
-
-/// The gain K of u = −K x that minimises Σ xᵀQx + uᵀRu, by iteration of the discrete Riccati equation.
-///
-/// # Errors
-/// R + BᵀPB is not positive definite, or the iteration does not settle: (A, B) cannot be stabilised.
-pub fn regulator<const X: usize, const M: usize>(
-    Linearised { a, b, .. }: &Linearised<X, M>,
-    q: &SMatrix<f64, X, X>,
-    r: &SMatrix<f64, M, M>,
-) -> Result<SMatrix<f64, M, X>> {
-    let mut p = *q;
-    for _ in 0..100_000 {
-        let factor = (r + b.transpose() * p * b).cholesky().context("R + BᵀPB is not positive definite")?;
-        let gain = factor.solve(&(b.transpose() * p * a));
-        let next = q + a.transpose() * p * (a - b * gain);
-        let next = (next + next.transpose()) * 0.5;
-        if !next.sum().is_finite() {
-            break;
-        }
-        if (next - p).amax() <= 1e-12 * next.amax() {
-            return Ok(gain);
-        }
-        p = next;
-    }
-    anyhow::bail!("the Riccati equation does not settle: the system cannot be stabilised by this input")
 }
 
 /// A cost near a point, to second order: ½ δxᵀ(xx)δx + x·δx, and the same for u.

@@ -213,8 +213,9 @@ mod attributes {
 ///
 /// `velocity_constraints` hold v: ψ(q̄, v̄) = 0 in each step, at q̄ = (q0 + q1)/2, with the reaction along
 /// ∂ψ/∂v; v at the end of each step satisfies ψ as well. Order is that of the rule. Such a step is not
-/// symplectic, and has no discrete Lagrangian of its own: that energy does not drift without friction, as
-/// that of a skate over 100 000 steps, follows from no theorem. A coin that rolls:
+/// symplectic, and has no discrete Lagrangian of its own: over a long run without friction energy may stay,
+/// as that of a skate over 100 000 steps, or drift, as that of a cart with its load ahead of the axle (the
+/// scene `rolling`), less by a method of higher order. A coin that rolls:
 ///
 /// ```
 /// use dalembert::{Discretise, Midpoint, State, StepError, rayleigh_system};

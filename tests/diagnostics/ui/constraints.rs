@@ -131,4 +131,7 @@ impl OnceMore {
     }
 }
 
-fn main() {}
+fn main() {
+    // A view that constraints alone ask for is no second message.
+    let _ = OfVelocity.at_time(0.0);
+}

@@ -79,7 +79,8 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
     {
         // Off the constraints by what states between are known to.
         let state = methods.nearest(system, &self.at)?;
-        let turns = self.rate.q.amax() / (state.q.amax() + S::SMALLEST_NORMAL);
+        // At the origin of q the distance from it tells nothing; steps that are too long are seen.
+        let turns = self.rate.q.amax() / (state.q.amax() + S::constant(SHORT));
         let mut tau = S::constant(SHORT) / (self.fastest + turns);
         for _ in 0..ATTEMPTS {
             let ends = [tau, -tau].map(|tau| methods.linearized(system, &state, tau));

@@ -1,11 +1,16 @@
-//! What the scenes `four_bar` and `fekete` claim, against computations that share no code with them.
+//! What the scenes `four_bar`, `fekete` and `rolling` claim, against computations that share no code with
+//! them.
 
-#[path = "../examples/fekete.rs"]
+mod cart;
+#[path = "../../examples/fekete.rs"]
 #[expect(dead_code, reason = "of the scene, what it computes is tested here, not what it prints")]
 mod fekete;
-#[path = "../examples/four_bar.rs"]
+#[path = "../../examples/four_bar.rs"]
 #[expect(dead_code, reason = "of the scene, what it computes is tested here, not what it prints")]
 mod four_bar;
+#[path = "../../examples/rolling.rs"]
+#[expect(dead_code, reason = "of the scene, what it computes is tested here, not what it prints")]
+mod rolling;
 
 use std::f64::consts::TAU;
 
