@@ -3,6 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::complement::Complement;
+use super::independent::Independent;
 use super::rows::{Rows, is_left};
 use crate::numbers::{Factored, Scalar};
 use crate::step::Segment;
@@ -41,7 +42,9 @@ impl<S: Scalar, const N: usize, const M: usize> Bordered<S, N, M> {
     {
         let rows = Rows::on(system, segment);
         let answers = factored.solve_columns(&directions);
-        let complement = Complement::of(&(rows.gradients * answers))?;
+        // Copies: what another function sees has a place of its own, out of which each step would move it.
+        let independent = || Independent::of(&{ rows.gradients }, &{ directions }, &{ answers });
+        let complement = Complement::of(&(rows.gradients * answers), independent)?;
         Some(Self { directions, rows, complement })
     }
 
