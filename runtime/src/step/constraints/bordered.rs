@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::complement::Complement;
 use super::independent::Independent;
-use super::rows::{Rows, is_left};
+use super::rows::Rows;
 use crate::numbers::{Factored, Scalar};
 use crate::step::Segment;
 use crate::system::{Constrained, sizes};
@@ -97,7 +97,7 @@ impl<S: Scalar, const N: usize, const M: usize> Bordered<S, N, M> {
     where
         L: Constrained<N, M, Scalar = S>,
     {
-        is_left(&self.rows.values(system, segment))
+        self.rows.is_off_on(system, segment)
     }
 
     /// W⁻¹G(q0)ᵀS⁻¹c on the segment itself; nothing where rounding explains c.
