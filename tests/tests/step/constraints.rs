@@ -12,6 +12,7 @@ use dalembert::system::Violation;
 use dalembert::{
     Composition, Discretise, Lagrangian, Midpoint, State, StepError, Trapezoidal, rayleigh_system,
 };
+use dalembert_tests::draws::Draws;
 
 /// A mass of 1.3 on the unit sphere.
 struct Spherical {
@@ -143,6 +144,27 @@ fn two_rods_step_as_the_reference_and_end_where_their_angles_do() -> Result<(), 
     let composition = Composition::kahan_li_8(Midpoint);
     let last = Rods.by(composition, 0.02).run(start).nth(99).unwrap()?;
     assert!(error(&last.state) < 1e-10);
+    Ok(())
+}
+
+/// A guess from far away leads a substep to another root, from where the next one has none.
+#[test]
+fn no_guess_has_a_composition_refused_that_the_state_alone_takes() -> Result<(), StepError> {
+    let mut draws = Draws::new(1);
+    let (mut taken, mut elsewhere) = (0, 0);
+    for (h, k) in [0.2, 0.3].into_iter().flat_map(|h| (0..20).map(move |k| (h, f64::from(k)))) {
+        let (a, b) = (1.0 + 0.1 * k, 1.8 - 0.2 * k);
+        let q = [0.5 * a.sin(), -0.5 * a.cos(), a, a.sin() + 0.4 * b.sin(), -a.cos() - 0.4 * b.cos(), b];
+        let start = State::from_velocity(&Rods, q, [0.0; 6])?;
+        let by = Rods.by(Composition::kahan_li_6(Midpoint), h);
+        let Ok(alone) = by.step(&start) else { continue };
+        let far = SVector::from_fn(|_, _| draws.between(-30.0, 30.0));
+        let end = by.near(&far).step(&start)?.state.q;
+        elsewhere += usize::from((end - alone.state.q).amax() > 1e-6);
+        taken += 1;
+    }
+    // Positive control: guesses as far lead to other roots, which are not refused.
+    assert!(taken > 20 && elsewhere > 0, "{elsewhere} of {taken}");
     Ok(())
 }
 
