@@ -271,6 +271,26 @@ where
     fn advance_later(
         &mut self,
         system: &L,
+        elapsed: f64,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        let found = self.taken(system, elapsed, state, h);
+        // On constraints a guess may lead to another root than the state, from where the next substep has
+        // none.
+        if L::IS_CONSTRAINED && found.is_err() {
+            *self = Self::default();
+            return self.taken(system, elapsed, state, h);
+        }
+        found
+    }
+}
+
+impl<L: Flow<R, N>, R, const N: usize, const S: usize> Substeps<L, R, N, S> {
+    #[inline]
+    fn taken(
+        &mut self,
+        system: &L,
         mut elapsed: f64,
         state: &State<L::Scalar, N>,
         h: L::Scalar,

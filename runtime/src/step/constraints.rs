@@ -24,6 +24,7 @@
 mod bordered;
 mod complement;
 mod equation;
+mod independent;
 mod inertia;
 mod linearized;
 mod nearest;

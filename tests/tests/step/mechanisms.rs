@@ -46,8 +46,8 @@ fn drawn<L: Mechanism<N, M>, const N: usize, const M: usize>(kind: Kind, seed: u
 }
 
 /// Runs of these kinds, of a few steps.
-fn hold<L: JudgedSystem<N, M>, const N: usize, const M: usize>(kinds: [Kind; 4], seed: u64) {
-    for kind in kinds {
+fn hold<L: JudgedSystem<N, M>, const N: usize, const M: usize>(kinds: &[Kind], seed: u64) {
+    for &kind in kinds {
         let mut drawn = drawn::<L, N, M>(kind, seed);
         drawn.steps = if cfg!(debug_assertions) { 6 } else { 60 };
         let outcome = run::<L, N, M>(&drawn);
@@ -57,12 +57,14 @@ fn hold<L: JudgedSystem<N, M>, const N: usize, const M: usize>(kinds: [Kind; 4],
 }
 
 #[test]
-fn twenty_runs_step_as_a_second_program_does() {
-    hold::<FourBar, 4, 3>([Kind::Plain, Kind::Units, Kind::Light, Kind::HeavilyDamped], 1);
-    hold::<Bars, 9, 8>([Kind::Plain, Kind::Light, Kind::HeavilyDamped, Kind::ToRest], 2);
-    hold::<Chain, 9, 3>([Kind::Plain, Kind::Units, Kind::Light, Kind::Stretched], 3);
-    hold::<Net, 8, 7>([Kind::Plain, Kind::Units, Kind::Light, Kind::HeavilyDamped], 4);
-    hold::<Triangle, 6, 4>([Kind::Plain, Kind::Light, Kind::Stretched, Kind::ToRest], 5);
+fn runs_step_as_a_second_program_does() {
+    hold::<FourBar, 4, 3>(&[Kind::Plain, Kind::Units, Kind::Light, Kind::HeavilyDamped], 1);
+    hold::<Bars, 9, 8>(&[Kind::Plain, Kind::Light, Kind::HeavilyDamped, Kind::ToRest], 2);
+    hold::<Chain, 9, 3>(&[Kind::Plain, Kind::Units, Kind::Light, Kind::Stretched], 3);
+    hold::<Net, 8, 7>(&[Kind::Plain, Kind::Units, Kind::Light, Kind::HeavilyDamped], 4);
+    // Flat to 10⁻⁵: in a hundredth of that the lengths as rounded leave open how flat.
+    hold::<Net, 8, 7>(&[Kind::Stretched], 26);
+    hold::<Triangle, 6, 4>(&[Kind::Plain, Kind::Light, Kind::Stretched, Kind::ToRest], 5);
 }
 
 /// A step of the mechanism with these values, and the problem that it has to solve.

@@ -12,11 +12,18 @@ use super::start::{from_rest, is_rest};
 use super::vectors::{Room, copy};
 use crate::numbers::Precision;
 
-/// The first part of h, from which parts double, and the least.
+/// The first part of h, from which parts double.
 const FIRST: f64 = 1.0 / 1024.0;
 
+/// The least part beside the share of h that is reached: where the curve turns back, shorter ones lead no
+/// further.
+const LEAST_BESIDE: f64 = FIRST;
+
+/// The least part: drag on a light body may turn its velocity over as early.
+const LEAST: f64 = FIRST * FIRST * FIRST;
+
 /// Parts that are tried.
-const PARTS: u32 = 24;
+const PARTS: u32 = 48;
 
 /// Iterations for each: what needs more has left the root.
 pub(crate) const ITERATIONS: u32 = 10;
@@ -140,8 +147,7 @@ fn in_parts<S: Precision>(
 }
 
 fn along_h<S: Precision>(root: &mut dyn FnMut(S) -> bool) -> bool {
-    let first = S::nearest(FIRST);
-    let (mut reached, mut part) = (S::zero(), first);
+    let (mut reached, mut part) = (S::zero(), S::nearest(FIRST));
     for _ in 0..PARTS {
         let share = if reached + part < S::one() { reached + part } else { S::one() };
         if root(share) {
@@ -150,12 +156,49 @@ fn along_h<S: Precision>(root: &mut dyn FnMut(S) -> bool) -> bool {
             }
             reached = share;
             part += part;
-        } else if part <= first {
-            // The first part is so short that only what has no motion at all fails.
+        } else if part <= reached * S::nearest(LEAST_BESIDE) || part <= S::nearest(LEAST) {
             return false;
         } else {
             part *= S::nearest(0.25);
         }
     }
     false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether the whole of h is reached, and by how many roots, where one leads on to another by parts of
+    /// at most this much of the share reached, and at first by `first`, up to the end of the curve.
+    fn is_reached(first: f64, at_once: f64, end: f64) -> (bool, u32) {
+        let (mut reached, mut asked) = (0.0, 0);
+        let is_whole = along_h(&mut |share: f64| {
+            asked += 1;
+            let is_near = share <= end && share - reached <= at_once * reached + first;
+            reached = if is_near { share } else { reached };
+            is_near
+        });
+        (is_whole, asked)
+    }
+
+    #[test]
+    fn a_root_is_followed_from_parts_of_any_length() {
+        for first in [1.0, 1e-3, 1e-5, 1e-8] {
+            for at_once in [10.0, 1.0] {
+                let (is_whole, asked) = is_reached(first, at_once, 1.0);
+                assert!(is_whole && asked <= PARTS, "{first:e}, {at_once}: {asked}");
+            }
+        }
+        // Positive control: of what has no motion at all.
+        assert!(!is_reached(0.0, 10.0, 1.0).0);
+    }
+
+    #[test]
+    fn a_curve_that_ends_is_left() {
+        for end in [0.0, 1e-6, 0.3, 0.999] {
+            let (is_whole, asked) = is_reached(1.0, 1.0, end);
+            assert!(!is_whole && asked < PARTS, "{end}: {asked}");
+        }
+    }
 }

@@ -3,7 +3,8 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::complement::Complement;
-use super::rows::{Rows, is_left};
+use super::independent::Independent;
+use super::rows::Rows;
 use crate::numbers::{Factored, Scalar};
 use crate::step::Segment;
 use crate::system::{Constrained, sizes};
@@ -41,7 +42,9 @@ impl<S: Scalar, const N: usize, const M: usize> Bordered<S, N, M> {
     {
         let rows = Rows::on(system, segment);
         let answers = factored.solve_columns(&directions);
-        let complement = Complement::of(&(rows.gradients * answers))?;
+        // Copies: what another function sees has a place of its own, out of which each step would move it.
+        let independent = || Independent::of(&{ rows.gradients }, &{ directions }, &{ answers });
+        let complement = Complement::of(&(rows.gradients * answers), independent)?;
         Some(Self { directions, rows, complement })
     }
 
@@ -94,7 +97,7 @@ impl<S: Scalar, const N: usize, const M: usize> Bordered<S, N, M> {
     where
         L: Constrained<N, M, Scalar = S>,
     {
-        is_left(&self.rows.values(system, segment))
+        self.rows.is_off_on(system, segment)
     }
 
     /// W⁻¹G(q0)ᵀS⁻¹c on the segment itself; nothing where rounding explains c.

@@ -16,6 +16,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::Constraints;
 use super::complement::Complement;
+use super::independent::Independent;
 use super::nearest::{AtPoint, dependence, tangent};
 use super::rows::Rows;
 use crate::numbers::{Scalar, linear::by_columns};
@@ -120,9 +121,11 @@ impl<S: Scalar, const N: usize, const M: usize> Linearized<S, N, M> {
         let free = invert(&k.p0_by_q1)?;
         let start = Held::of(system, segment.q0, k.momenta.p0)?;
         let end = system.later(segment.h, |system| Held::of(system, segment.end(), k.momenta.p1))?;
-        let answers = free * start.at.gradients.transpose();
+        let directions = start.at.gradients.transpose();
+        let answers = free * directions;
         let rows = Rows::at_ends(system, segment);
-        let complement = Complement::of(&(rows[1] * answers));
+        let independent = || Independent::of(&rows[1], &directions, &answers);
+        let complement = Complement::of(&(rows[1] * answers), independent);
         let complement = complement.ok_or_else(|| dependence::<L, N, M>(system, &segment.q0))?;
         let by_p = by_columns(&free, |column| column - answers * complement.solve(&(rows[1] * column)));
         // p0 = P0 − Gᵀκ, and p0 = P0 + Gᵀμ.

@@ -3,6 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::complement::Complement;
+use super::independent::Independent;
 use super::inertia::Inertia;
 use super::rows::with_last;
 use super::undefined::undefined;
@@ -152,7 +153,8 @@ impl<S: Scalar, const N: usize, const M: usize> AtPoint<S, N, M> {
         let directions = gradients.transpose();
         let answers = by_columns(&directions, |direction| inertia.solve(direction));
         let product = gradients * answers;
-        match Complement::of(&beside.map_or(product, |beside| product + beside)) {
+        let matrix = beside.map_or(product, |beside| product + beside);
+        match Complement::of(&matrix, || Independent::of(&{ gradients }, &{ directions }, &{ answers })) {
             Some(complement) => Ok(Self { values, gradients, inertia, answers, complement }),
             None => Err(undefined_or_dependent::<L, N, M>(system, q)),
         }

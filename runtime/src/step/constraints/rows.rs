@@ -97,6 +97,15 @@ impl<S: Scalar, const N: usize, const M: usize> Rows<S, N, M> {
         })
     }
 
+    /// Whether more is left of a constraint on another segment, near that of these rows, than its rounding.
+    pub(super) fn is_off_on<L>(&self, system: &L, segment: &Segment<S, N>) -> bool
+    where
+        L: Constrained<N, M, Scalar = S>,
+    {
+        let left = self.values(system, segment);
+        is_left(&left) && !is_explained(system, segment, &left)
+    }
+
     /// Whether more than rounding is left of a constraint.
     pub(super) fn is_off(&self) -> bool {
         is_left(&self.values)
@@ -154,8 +163,30 @@ impl<S: Scalar, const N: usize, const M: usize> Rows<S, N, M> {
     }
 }
 
+/// Whether the rounding of g itself explains what is `left` of the constraints: near the origin of q the
+/// terms of g are larger than q tells.
+#[cold]
+#[inline(never)]
+fn is_explained<S: Scalar, L, const N: usize, const M: usize>(
+    system: &L,
+    segment: &Segment<S, N>,
+    left: &SVector<S, M>,
+) -> bool
+where
+    L: Constrained<N, M, Scalar = S>,
+{
+    let end = segment.end();
+    let (values, rounding) =
+        system.later(segment.h, |system| (system.constraints(&end), system.constraint_rounding(&end)));
+    let holonomic = M - L::OF_VELOCITY.min(M);
+    let is_held = |(value, rounding): (&S, &S)| rounding.is_finite() && value.abs() <= *rounding * S::EPSILON;
+    let mut rows = values.as_slice().iter().zip(rounding.as_slice()).take(holonomic);
+    let mut of_velocity = left.as_slice().iter().skip(holonomic);
+    of_velocity.all(|left| *left == S::zero()) && rows.all(is_held)
+}
+
 /// Whether one of the values is more than rounding.
-pub(super) fn is_left<S: Scalar, const M: usize>(values: &SVector<S, M>) -> bool {
+fn is_left<S: Scalar, const M: usize>(values: &SVector<S, M>) -> bool {
     values.as_slice().iter().any(|value| *value != S::zero())
 }
 
