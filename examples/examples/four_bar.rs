@@ -16,17 +16,10 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use dalembert::system::Constrained;
-use dalembert::{Discretise, EnergyLedger, Midpoint, State, rayleigh_system};
+use dalembert::{Discretise, EnergyLedger, Midpoint, State};
 use dalembert_examples::picture::{self, Curve, Dash, Panel, colour, linear};
+use dalembert_scenes::four_bar::{COMBINATION, FourBar, G, MASSES, Redundant};
 
-/// Lengths of crank, coupler and rocker, m.
-pub const LENGTHS: [f64; 3] = [0.3, 0.9, 0.7];
-/// Their masses, kg.
-pub const MASSES: [f64; 3] = [0.5, 0.9, 0.6];
-/// The distance of the pivots on the ground, m.
-pub const GROUND: f64 = 1.0;
-/// Acceleration of gravity, m/s².
-pub const G: f64 = 9.81;
 /// Friction of each joint, N m s.
 pub const FRICTION: f64 = 0.1;
 /// The torque of the motor while it drives, N m.
@@ -36,112 +29,48 @@ pub const H: f64 = 2e-3;
 /// The time from rest to rest, s.
 pub const END: f64 = 10.0;
 
-/// The linkage with this number of constraints: its joints', and `once_more` of q.
-macro_rules! four_bar {
-    ($(#[$doc:meta])* $name:ident: $count:literal $(, |$q:ident| $once_more:expr)?) => {
+/// Runs of the linkage with this number of constraints.
+macro_rules! drive {
+    ($(#[$doc:meta])* $run:ident: $name:ident, $count:literal) => {
         $(#[$doc])*
-        pub struct $name;
+        ///
+        /// # Errors
+        /// Those of steps.
+        pub fn $run(h: f64) -> Result<Vec<Moment<$count>>> {
+            let linkage = $name { friction: FRICTION };
+            let still = linkage.driven([0.0]);
+            let near_rest = [-0.04, -0.15, -1.86, 0.2, 0.1, 0.93, 0.7, 0.2, 2.47];
+            let let_go = State::nearest(&still, near_rest, [0.0; 9])?;
+            // Where it rests does not depend on the step.
+            let settled = still.by(Midpoint, 0.02).run(let_go).nth(999).context("a run")??.state;
+            let start = State::from_velocity(&still, settled.q, [0.0; 9])?;
 
-        #[rayleigh_system]
-        impl $name {
-            fn lagrangian(&self, q: [f64; 9], v: [f64; 9]) -> f64 {
-                let mut sum = 0.0;
-                for i in 0..3 {
-                    let [x, y, turn] = [v[3 * i], v[3 * i + 1], LENGTHS[i] * v[3 * i + 2]];
-                    sum += 0.5 * MASSES[i] * (x * x + y * y + turn * turn / 12.0);
-                    sum -= MASSES[i] * G * q[3 * i + 1];
-                }
-                sum
+            let mut run = still.by(Midpoint, h).run_with_inputs(start);
+            let (mut account, mut is_driven, mut moments) = (EnergyLedger::default(), true, Vec::new());
+            for _ in 0..(END / h) as usize {
+                let (time, state) = (run.time(), *run.state());
+                is_driven &= state.q[2] < start.q[2] + TAU;
+                let driven = linkage.driven([if is_driven { TORQUE } else { 0.0 }]);
+                let (step, by) = (run.advance(&driven)?, driven.by(Midpoint, h));
+                let reactions = by.reactions(&state, &step)?.into();
+                let off = driven.constraints(&state.q).amax();
+                moments.push(Moment { time, is_driven, q: state.q.into(), reactions, off, account });
+                account += by.ledger(&state, &step.state)?;
             }
-
-            fn rayleigh(&self, v: [f64; 9]) -> f64 {
-                let [crank, coupler, rocker] = [v[2], v[5], v[8]];
-                let mut sum = 0.0;
-                for turn in [crank, coupler - crank, rocker - coupler, rocker] {
-                    sum += 0.5 * FRICTION * turn * turn;
-                }
-                sum
-            }
-
-            fn force(&self, _q: [f64; 9], _v: [f64; 9], torque: [f64; 1]) -> [f64; 9] {
-                [0.0, 0.0, torque[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
-            }
-
-            fn constraints(&self, q: [f64; 9]) -> [f64; $count] {
-                let [near, far] = self.ends(q);
-                [
-                    near[0][0],
-                    near[0][1],
-                    far[0][0] - near[1][0],
-                    far[0][1] - near[1][1],
-                    far[1][0] - far[2][0],
-                    far[1][1] - far[2][1],
-                    near[2][0] - GROUND,
-                    near[2][1],
-                    $({
-                        let $q = q;
-                        $once_more
-                    },)?
-                ]
-            }
-
-            /// The ends of the bars, the near ones first, by which crank and rocker are pinned to the ground.
-            fn ends(&self, q: [f64; 9]) -> [[[f64; 2]; 3]; 2] {
-                let mut ends = [[[0.0; 2]; 3]; 2];
-                for i in 0..3 {
-                    let [x, y, half] = [q[3 * i], q[3 * i + 1], 0.5 * LENGTHS[i]];
-                    let [along, up] = [half * q[3 * i + 2].cos(), half * q[3 * i + 2].sin()];
-                    ends[0][i] = [x - along, y - up];
-                    ends[1][i] = [x + along, y + up];
-                }
-                ends
-            }
-        }
-
-        impl $name {
-            /// The linkage at rest under its weight, and from there on its motion by steps of `h`.
-            ///
-            /// # Errors
-            /// Those of steps.
-            pub fn drive(h: f64) -> Result<Vec<Moment<$count>>> {
-                let still = $name.driven([0.0]);
-                let near_rest = [-0.04, -0.15, -1.86, 0.2, 0.1, 0.93, 0.7, 0.2, 2.47];
-                let let_go = State::nearest(&still, near_rest, [0.0; 9])?;
-                // Where it rests does not depend on the step.
-                let settled = still.by(Midpoint, 0.02).run(let_go).nth(999).context("a run")??.state;
-                let start = State::from_velocity(&still, settled.q, [0.0; 9])?;
-
-                let mut run = still.by(Midpoint, h).run_with_inputs(start);
-                let (mut account, mut is_driven, mut moments) = (EnergyLedger::default(), true, Vec::new());
-                for _ in 0..(END / h) as usize {
-                    let (time, state) = (run.time(), *run.state());
-                    is_driven &= state.q[2] < start.q[2] + TAU;
-                    let driven = $name.driven([if is_driven { TORQUE } else { 0.0 }]);
-                    let (step, by) = (run.advance(&driven)?, driven.by(Midpoint, h));
-                    let reactions = by.reactions(&state, &step)?.into();
-                    let off = driven.constraints(&state.q).amax();
-                    moments.push(Moment { time, is_driven, q: state.q.into(), reactions, off, account });
-                    account += by.ledger(&state, &step.state)?;
-                }
-                Ok(moments)
-            }
+            Ok(moments)
         }
     };
 }
 
-four_bar! {
-    /// The linkage with a constraint for each component of each joint.
-    FourBar: 8
+drive! {
+    /// The linkage at rest under its weight, and from there on its motion by steps of `h`.
+    drive: FourBar, 8
 }
 
-four_bar! {
-    /// The linkage with the sum of four of these besides: the loop along x.
-    Redundant: 9,
-    |q| LENGTHS[0] * q[2].cos() + LENGTHS[1] * q[5].cos() - LENGTHS[2] * q[8].cos() - GROUND
+drive! {
+    /// [`drive`] with a constraint that says again what the others say.
+    drive_once_more: Redundant, 9
 }
-
-/// How the ninth constraint is made of the others: Σ nₖgₖ = 0.
-pub const COMBINATION: [f64; 9] = [-1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0];
 
 /// The linkage at one time.
 #[derive(Clone, Copy)]
@@ -161,7 +90,7 @@ pub struct Moment<const M: usize> {
 }
 
 fn main() -> Result<()> {
-    let motion = FourBar::drive(H)?;
+    let motion = drive(H)?;
     let [start, end] = [motion[0], *motion.last().context("a motion")?];
     let driven: Vec<_> = motion.iter().copied().filter(|moment| moment.is_driven).collect();
     let turns = (end.q[2] - start.q[2]) / TAU;
@@ -169,7 +98,7 @@ fn main() -> Result<()> {
         "Driven by {TORQUE} N m for {:.3} s, a turn of the crank; at rest after {turns:.6} turns. h = {H} s.",
         driven.len() as f64 * H
     );
-    let finer = FourBar::drive(0.5 * H)?.last().context("a motion")?.account;
+    let finer = drive(0.5 * H)?.last().context("a motion")?.account;
     let EnergyLedger { change, dissipated, work } = end.account;
     println!("\nwork of the motor    {work:12.6} J");
     println!("taken by the joints  {dissipated:12.6} J");
@@ -189,7 +118,7 @@ fn main() -> Result<()> {
         left + right - weight
     );
 
-    let again = compare(&motion, &Redundant::drive(H)?);
+    let again = compare(&motion, &drive_once_more(H)?);
     println!("\nWith a ninth constraint, which follows from four of the others:");
     println!(
         "q differs by {:.1e} at most, forces on the bars by {:.1e} of the largest,",
@@ -234,7 +163,7 @@ const BESIDE: f64 = 0.35;
 
 /// Pivot, crank's end, coupler's point, coupler's end, and the other pivot.
 fn outline(q: &[f64; 9]) -> [(f64, f64); 5] {
-    let [near, far] = FourBar.ends(*q);
+    let [near, far] = FourBar { friction: FRICTION }.ends(*q);
     let point = (q[3] - BESIDE * q[5].sin(), q[4] + BESIDE * q[5].cos());
     let [pivot, first, second, other] = [near[0], far[0], far[1], near[2]].map(|[x, y]| (x, y));
     [pivot, first, point, second, other]

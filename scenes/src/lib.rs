@@ -10,6 +10,8 @@
 mod arm;
 #[macro_use]
 mod double_pendulum;
+#[cfg(feature = "mechanisms")]
+pub mod four_bar;
 #[macro_use]
 mod fput_chain;
 mod henon_heiles;

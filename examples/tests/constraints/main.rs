@@ -17,8 +17,9 @@ use std::f64::consts::TAU;
 use dalembert::nalgebra::{SMatrix, SVector, Vector3};
 use dalembert::system::Constrained;
 use dalembert::{Composition, Discretise, Midpoint, State};
+use dalembert_scenes::four_bar::{COMBINATION, G, GROUND, LENGTHS, MASSES, Redundant};
 use fekete::{DRAG, Fekete, N, POINTS};
-use four_bar::{COMBINATION, FRICTION, FourBar, G, GROUND, H, LENGTHS, MASSES, Redundant};
+use four_bar::{FRICTION, H};
 
 /// Angles of coupler and rocker by that of the crank, from the triangle of its end and the joint opposite.
 fn closed(crank: f64) -> [f64; 3] {
@@ -44,7 +45,7 @@ fn potential(crank: f64) -> f64 {
 #[test]
 #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn the_linkage_goes_from_rest_to_rest_once_around() {
-    let motion = FourBar::drive(H).unwrap();
+    let motion = four_bar::drive(H).unwrap();
     let [start, end] = [motion[0], *motion.last().unwrap()];
     // At the least potential, by halving: its slope by differences of the fourth order.
     let slope = |at: f64| {
@@ -88,7 +89,7 @@ fn the_linkage_goes_from_rest_to_rest_once_around() {
 #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn the_energy_of_the_linkage_is_accounted_for() {
     let remainder = |h: f64| {
-        let account = FourBar::drive(h).unwrap().last().unwrap().account;
+        let account = four_bar::drive(h).unwrap().last().unwrap().account;
         assert!(account.work > 10.0 && account.change.abs() < 1e-8, "{account:?}");
         account.remainder()
     };
@@ -99,7 +100,7 @@ fn the_energy_of_the_linkage_is_accounted_for() {
 #[test]
 #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn a_ninth_constraint_changes_multipliers_alone() {
-    let (eight, nine) = (FourBar::drive(H).unwrap(), Redundant::drive(H).unwrap());
+    let (eight, nine) = (four_bar::drive(H).unwrap(), four_bar::drive_once_more(H).unwrap());
     let found = four_bar::compare(&eight, &nine);
     assert!(found.q < 1e-12 && found.forces < 1e-10 && found.taken_over > 1.0, "{}", found.forces);
 
@@ -121,7 +122,8 @@ fn a_ninth_constraint_changes_multipliers_alone() {
         w += turn * turn.transpose() * (0.5 * H * FRICTION);
     }
     let inverse = w.try_inverse().unwrap();
-    let system = Redundant.driven([0.0]);
+    let linkage = Redundant { friction: FRICTION };
+    let system = linkage.driven([0.0]);
     let n = SVector::from(COMBINATION);
     let (mut weighted, mut plain) = (0.0_f64, 0.0_f64);
     for pair in nine[..nine.len() / 10].windows(2) {

@@ -1,6 +1,6 @@
 """Times methods that have a Python interface, one run at a request, so that another program can take turns with it.
 
-Says which methods there are, and which find events, then answers a line `method<TAB>scene<TAB>tolerance<TAB>repeats<TAB>samples` with `end`, the
+Says which methods there are, which find events and which are for mechanisms, then answers a line `method<TAB>scene<TAB>tolerance<TAB>repeats<TAB>samples` with `end`, the
 seconds of one trajectory and (q, v) at so many equal intervals, of a batch of all its trajectories, or with what went wrong. The time is this thread's processor time,
 taken here, around the integration alone.
 """
@@ -9,12 +9,16 @@ import sys
 from functools import cache
 from time import thread_time
 
+import mujoco_models
+from constrained import REDUCED
 from scenes import LONG_RUN, SCENES
 
-ALL = SCENES | {"long run": LONG_RUN}
+ALL = SCENES | REDUCED | {"long run": LONG_RUN}
 BATCH = 8
 # Numbers of coordinates where compiling every operation on its own takes minutes; heyoka's compact mode is for these.
 LARGE, LARGE_BATCH = 16, 7
+# Those of mechanisms without their multipliers, which take a minute for each tolerance, and in compact mode three times as long to run.
+UNCOMPILED = 9
 
 
 def motion(hy, scene):
@@ -30,6 +34,8 @@ def heyoka_methods(hy):
 
     @cache
     def scalar(name, tolerance):
+        if ALL[name].n >= UNCOMPILED and name in REDUCED:
+            raise RuntimeError("takes a minute to compile")
         _, rates, start = motion(hy, ALL[name])
         return hy.taylor_adaptive(rates, start, tol=tolerance, compact_mode=ALL[name].n >= LARGE)
 
@@ -148,6 +154,34 @@ def scipy_methods(hy):
     return {"scipy dop853": run}
 
 
+def implicit_methods(hy):
+    """SciPy's Radau, which is Python but for its linear algebra; its right-hand side is compiled by heyoka."""
+    import numpy as np
+    from scipy.integrate import solve_ivp
+
+    @cache
+    def rate(name):
+        y, rates, _ = motion(hy, ALL[name])
+        function = hy.cfunc([right for _, right in rates], vars=y)
+        return lambda _, y: function(np.ascontiguousarray(y))
+
+    def run(name, tolerance, repeats, samples):
+        scene, function = ALL[name], rate(name)
+        if scene.end > 100.0:
+            raise RuntimeError("a long motion takes minutes")
+        apart = scene.end / samples
+        begin = thread_time()
+        for _ in range(repeats):
+            y, states = np.array(scene.q + scene.v), []
+            for _ in range(samples):
+                solution = solve_ivp(function, (0.0, apart), y, method="Radau", rtol=tolerance, atol=tolerance)
+                y = solution.y[:, -1]
+                states.append(y)
+        return (thread_time() - begin) / repeats, states
+
+    return {"scipy Radau": run}
+
+
 def available():
     """The methods whose libraries are installed; says what is and what is not."""
     methods = {}
@@ -178,7 +212,17 @@ def main():
         events = heyoka_events(heyoka)
         for name in events:
             print(f"events {name}")
-        methods |= events
+        # Of mechanisms on constraints without their multipliers.
+        reduced = {"heyoka": methods["heyoka"]}
+        if "scipy dop853" in methods:
+            reduced |= {"scipy dop853": methods["scipy dop853"]} | implicit_methods(heyoka)
+        for name in reduced:
+            print(f"reduced {name}")
+        methods |= events | {name: run for name, run in reduced.items() if name not in methods}
+    stepped = mujoco_models.methods()
+    for name in stepped:
+        print(f"stepped {name}")
+    methods |= stepped
     print("ready", flush=True)
     for line in sys.stdin:
         method, scene, tolerance, repeats, samples = line.rstrip("\n").split("\t")

@@ -3,10 +3,11 @@
 //!
 //! `cargo speed-against-error` measures and writes `docs/speed-against-error.md`; `… page` writes the page
 //! again from the figures measured last, `… scenes` and `… long-run` measure one part again, `… scenes ring
-//! Kepler` these scenes; `… section` the crossings of a section. `…
-//! ensembles`, of many trajectories, is a page of its own. Peers with a Python interface are run where the interpreter that `PYTHON`
-//! names has them.
+//! Kepler` these scenes; `… section` the crossings of a section. `… ensembles`, of many trajectories, and `…
+//! constraints`, of mechanisms, are pages of their own. Peers with a Python interface are run where the
+//! interpreter that `PYTHON` names has them.
 
+mod constraints;
 mod ensembles;
 mod figures;
 mod frontier;
@@ -48,10 +49,13 @@ fn main() -> Result<()> {
         Some("scenes") => measure(&folder, Some(&env::args().skip(2).collect::<Vec<_>>()), false)?,
         Some("long-run") => measure(&folder, None, true)?,
         Some("ensembles") => return ensembles::write(&docs),
+        Some("constraints") => {
+            return constraints::write(&docs, env::args().nth(2).as_deref() == Some("page"));
+        }
         Some("page") => {}
         Some(other) => {
             bail!(
-                "{other:?} is no part of the measurement: give `scenes`, `long-run` or `section` to measure these alone, `ensembles` for many trajectories, `page` to measure nothing, or \
+                "{other:?} is no part of the measurement: give `scenes`, `long-run` or `section` to measure these alone, `ensembles` for many trajectories, `constraints` for mechanisms, `page` to measure nothing, or \
                  no argument to measure all"
             )
         }

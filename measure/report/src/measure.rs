@@ -1,6 +1,7 @@
 //! Runs of one scene by all methods, in turns: what slows the machine slows all.
 
 use std::hint::black_box;
+use std::ops::RangeInclusive;
 
 use anyhow::Result;
 use cpu_time::ThreadTime;
@@ -33,10 +34,19 @@ const SHORTEST: f64 = 2e-4;
 
 /// Seconds that one candidate may take over all rounds, as long as it gets the fewest.
 const BUDGET: f64 = 0.1;
-const ROUNDS: std::ops::RangeInclusive<u32> = 5..=15;
+const ROUNDS: RangeInclusive<u32> = 5..=15;
 
 /// Measures all, round by round; a candidate that fails is dropped, with what it said on standard error.
 pub fn interleaved<E>(candidates: Vec<Candidate<'_, E>>) -> Vec<Measured<E>> {
+    in_rounds(candidates, BUDGET, ROUNDS)
+}
+
+/// Measures all in a number of rounds, as few as a budget for all rounds of a candidate allows.
+pub fn in_rounds<E>(
+    candidates: Vec<Candidate<'_, E>>,
+    budget: f64,
+    allowed: RangeInclusive<u32>,
+) -> Vec<Measured<E>> {
     struct Entry<'a, E> {
         candidate: Candidate<'a, E>,
         end: E,
@@ -50,14 +60,14 @@ pub fn interleaved<E>(candidates: Vec<Candidate<'_, E>>) -> Vec<Measured<E>> {
         match (candidate.run)(1).and_then(|_| (candidate.run)(1)) {
             Ok((seconds, end)) => {
                 let repeats = (SHORTEST / seconds).ceil().clamp(1.0, 100.0) as u32;
-                let rounds = (BUDGET / (seconds * f64::from(repeats))) as u32;
-                let rounds = rounds.clamp(*ROUNDS.start(), *ROUNDS.end());
+                let rounds = (budget / (seconds * f64::from(repeats))) as u32;
+                let rounds = rounds.clamp(*allowed.start(), *allowed.end());
                 entries.push(Entry { candidate, end, repeats, rounds, seconds: Vec::new() });
             }
             Err(error) => eprintln!("  {} at {:e}: {error:#}", candidate.method, candidate.setting),
         }
     }
-    for round in 0..*ROUNDS.end() {
+    for round in 0..*allowed.end() {
         for entry in entries.iter_mut().filter(|entry| round < entry.rounds) {
             if let Ok((seconds, _)) = (entry.candidate.run)(entry.repeats) {
                 entry.seconds.push(seconds);

@@ -99,7 +99,11 @@ where
     Ok(sample.state)
 }
 
-fn run<S, M, const N: usize>(
+/// The state after so many steps of size h by a method.
+///
+/// # Errors
+/// Those of steps.
+pub fn run<S, M, const N: usize>(
     scene: &S,
     method: M,
     start: &State<f64, N>,

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 
 use anyhow::{Context, Result};
 
-use crate::scenes::Scene;
+use crate::scenes::Accelerated;
 
 mod differential_equations;
 #[cfg(feature = "diffsol")]
@@ -17,7 +17,7 @@ pub mod python;
 pub type Adaptive<S, const M: usize> = fn(&S, &[f64; M], f64, f64) -> Result<[f64; M]>;
 
 /// Those written in Rust, for a scene with N coordinates and M = 2N.
-pub fn methods<S: Scene<N>, const N: usize, const M: usize>() -> Vec<(&'static str, Adaptive<S, M>)> {
+pub fn methods<S: Accelerated<N>, const N: usize, const M: usize>() -> Vec<(&'static str, Adaptive<S, M>)> {
     vec![
         ("ode_solvers Dop853", ode_solvers::dop853::<S, N, M>),
         ("differential-equations dop853", differential_equations::dop853::<S, N, M>),
@@ -32,7 +32,7 @@ struct Motion<'a, S, const N: usize> {
     dimension: PhantomData<[f64; N]>,
 }
 
-impl<'a, S: Scene<N>, const N: usize> Motion<'a, S, N> {
+impl<'a, S: Accelerated<N>, const N: usize> Motion<'a, S, N> {
     fn new(scene: &'a S) -> Self {
         Self { scene, dimension: PhantomData }
     }

@@ -10,9 +10,15 @@ pub use dalembert_scenes::{
 
 use crate::ours::{self, InScaledTime, Splittings, Steps};
 
+/// A motion as its accelerations: what a peer integrates.
+pub trait Accelerated<const N: usize>: Copy + 'static {
+    /// q̈ as a function of (q, q̇).
+    fn acceleration(&self, q: &[f64; N], v: &[f64; N]) -> [f64; N];
+}
+
 /// A system in both forms.
 pub trait Scene<const N: usize>:
-    Discrete<Midpoint, N, Scalar = f64> + Discrete<Trapezoidal, N> + ForcedLagrangian<N> + Copy + 'static
+    Accelerated<N> + Discrete<Midpoint, N, Scalar = f64> + Discrete<Trapezoidal, N> + ForcedLagrangian<N>
 {
     /// The methods that not every scene has.
     const OTHERS: &'static [(&'static str, Steps<Self, N>)] = &[];
@@ -21,9 +27,6 @@ pub trait Scene<const N: usize>:
     fn methods() -> Vec<(&'static str, Steps<Self, N>)> {
         [&ours::methods(), Self::OTHERS].concat()
     }
-
-    /// q̈ as a function of (q, q̇).
-    fn acceleration(&self, q: &[f64; N], v: &[f64; N]) -> [f64; N];
 }
 
 /// The names of all methods of this project, those of an eccentric orbit among them.
@@ -35,7 +38,9 @@ pub fn names() -> Vec<&'static str> {
 
 impl Scene<2> for Ring {
     const OTHERS: &'static [(&'static str, Steps<Self, 2>)] = Splittings::ALL;
+}
 
+impl Accelerated<2> for Ring {
     #[inline]
     fn acceleration(&self, q: &[f64; 2], v: &[f64; 2]) -> [f64; 2] {
         let s = q[0] * q[0] + q[1] * q[1];
@@ -44,7 +49,9 @@ impl Scene<2> for Ring {
     }
 }
 
-impl Scene<2> for DoublePendulum {
+impl Scene<2> for DoublePendulum {}
+
+impl Accelerated<2> for DoublePendulum {
     #[inline]
     fn acceleration(&self, q: &[f64; 2], v: &[f64; 2]) -> [f64; 2] {
         let ([m1, m2], [l1, l2], g, c) = (self.m, self.l, self.g, self.c);
@@ -64,7 +71,9 @@ macro_rules! chains {
     ($($name:ident: $n:literal;)*) => {$(
         impl Scene<$n> for $name {
             const OTHERS: &'static [(&'static str, Steps<Self, $n>)] = Splittings::ALL;
+        }
 
+        impl Accelerated<$n> for $name {
             #[inline]
             fn acceleration(&self, q: &[f64; $n], v: &[f64; $n]) -> [f64; $n] {
                 let force = |d: f64| d + self.beta * (d * d * d);
@@ -89,7 +98,9 @@ chains! {
 
 impl Scene<2> for HenonHeiles {
     const OTHERS: &'static [(&'static str, Steps<Self, 2>)] = Splittings::ALL;
+}
 
+impl Accelerated<2> for HenonHeiles {
     #[inline]
     fn acceleration(&self, &[x, y]: &[f64; 2], _: &[f64; 2]) -> [f64; 2] {
         [-x - 2.0 * (x * y), -y - x * x + y * y]
@@ -98,7 +109,9 @@ impl Scene<2> for HenonHeiles {
 
 impl Scene<2> for Kepler {
     const OTHERS: &'static [(&'static str, Steps<Self, 2>)] = Splittings::ALL;
+}
 
+impl Accelerated<2> for Kepler {
     #[inline]
     fn acceleration(&self, q: &[f64; 2], v: &[f64; 2]) -> [f64; 2] {
         let square = q[0] * q[0] + q[1] * q[1];
@@ -109,7 +122,9 @@ impl Scene<2> for Kepler {
 
 impl Scene<2> for EccentricKepler {
     const OTHERS: &'static [(&'static str, Steps<Self, 2>)] = InScaledTime::ALL;
+}
 
+impl Accelerated<2> for EccentricKepler {
     #[inline]
     fn acceleration(&self, q: &[f64; 2], v: &[f64; 2]) -> [f64; 2] {
         Kepler { k: self.k }.acceleration(q, v)
@@ -151,7 +166,9 @@ impl Pendulums {
     }
 }
 
-impl Scene<7> for Pendulums {
+impl Scene<7> for Pendulums {}
+
+impl Accelerated<7> for Pendulums {
     /// Mass matrix Mᵢⱼ = (7 − max(i, j)) cos(qᵢ − qⱼ), solved with by LDLᵀ.
     #[inline]
     fn acceleration(&self, q: &[f64; 7], v: &[f64; 7]) -> [f64; 7] {

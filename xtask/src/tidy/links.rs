@@ -11,8 +11,9 @@ use crate::{markdown, project};
 const OF_RUSTDOC: &str = "runtime/src/guide/";
 
 /// Folders with parts of pages, and those into which programs write the pages: links lead from there.
-const PARTS: [(&str, &str); 5] = [
+const PARTS: [(&str, &str); 6] = [
     ("docs/speed-against-error/", "docs"),
+    ("measure/report/src/constraints/", "docs/evidence"),
     ("measure/report/", "docs"),
     ("measure/benches/", "docs/evidence"),
     ("tests/examples/hard_cases/", "docs"),

@@ -6,16 +6,16 @@ use anyhow::{Result, anyhow};
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 
 use super::{Motion, last};
-use crate::scenes::Scene;
+use crate::scenes::Accelerated;
 
-impl<S: Scene<N>, const N: usize, const M: usize> ODE<f64, [f64; M]> for Motion<'_, S, N> {
+impl<S: Accelerated<N>, const N: usize, const M: usize> ODE<f64, [f64; M]> for Motion<'_, S, N> {
     #[inline]
     fn diff(&self, _: f64, y: &[f64; M], rate: &mut [f64; M]) {
         self.rate(y, rate);
     }
 }
 
-pub fn dop853<S: Scene<N>, const N: usize, const M: usize>(
+pub fn dop853<S: Accelerated<N>, const N: usize, const M: usize>(
     scene: &S,
     start: &[f64; M],
     time: f64,

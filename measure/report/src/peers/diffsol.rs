@@ -6,9 +6,9 @@ use anyhow::{Result, anyhow};
 use diffsol::{NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason};
 
 use super::Motion;
-use crate::scenes::Scene;
+use crate::scenes::Accelerated;
 
-pub fn tsit45<S: Scene<N>, const N: usize, const M: usize>(
+pub fn tsit45<S: Accelerated<N>, const N: usize, const M: usize>(
     scene: &S,
     start: &[f64; M],
     time: f64,

@@ -5,16 +5,16 @@ use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, SVector, System};
 
 use super::{Motion, last};
-use crate::scenes::Scene;
+use crate::scenes::Accelerated;
 
-impl<S: Scene<N>, const N: usize, const M: usize> System<f64, SVector<f64, M>> for Motion<'_, S, N> {
+impl<S: Accelerated<N>, const N: usize, const M: usize> System<f64, SVector<f64, M>> for Motion<'_, S, N> {
     #[inline]
     fn system(&self, _: f64, y: &SVector<f64, M>, rate: &mut SVector<f64, M>) {
         self.rate(y.as_slice(), rate.as_mut_slice());
     }
 }
 
-pub fn dop853<S: Scene<N>, const N: usize, const M: usize>(
+pub fn dop853<S: Accelerated<N>, const N: usize, const M: usize>(
     scene: &S,
     start: &[f64; M],
     time: f64,

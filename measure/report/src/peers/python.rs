@@ -14,6 +14,9 @@ pub struct Python {
     pub methods: Vec<&'static str>,
     /// Those that find crossings.
     pub events: Vec<&'static str>,
+    /// Those for mechanisms on constraints: without their multipliers to a tolerance, and by step sizes.
+    pub reduced: Vec<&'static str>,
+    pub stepped: Vec<&'static str>,
     pub missing: Vec<String>,
     pub versions: Vec<String>,
 }
@@ -41,19 +44,22 @@ impl Python {
         let output = BufReader::new(child.stdout.take().context("no standard output")?);
         let mut process = Process { child, input, output };
         let (mut methods, mut events) = (Vec::new(), Vec::new());
+        let (mut reduced, mut stepped) = (Vec::new(), Vec::new());
         let (mut missing, mut versions) = (Vec::new(), Vec::new());
         loop {
             let line = process.line()?;
             match line.split_once(' ').unwrap_or((&line, "")) {
                 ("method", name) => methods.push(&*name.to_owned().leak()),
                 ("events", name) => events.push(&*name.to_owned().leak()),
+                ("reduced", name) => reduced.push(&*name.to_owned().leak()),
+                ("stepped", name) => stepped.push(&*name.to_owned().leak()),
                 ("missing", what) => missing.push(what.to_owned()),
                 ("version", what) => versions.push(what.to_owned()),
                 ("ready", "") => break,
                 _ => bail!("peers.py said {line:?}"),
             }
         }
-        Ok(Self { process: RefCell::new(process), methods, events, missing, versions })
+        Ok(Self { process: RefCell::new(process), methods, events, reduced, stepped, missing, versions })
     }
 
     /// Seconds of one trajectory of the scene of that name, and (q, v) at the ends of so many equal
