@@ -23,6 +23,7 @@ pub mod graph;
 mod groups;
 pub mod hygiene;
 mod joint;
+mod kinks;
 mod lanes;
 pub mod lower;
 mod model;

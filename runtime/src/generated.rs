@@ -13,7 +13,8 @@ pub use crate::numbers::{
 };
 #[doc(no_inline)]
 pub use crate::rules::{
-    DisplacementRule, Fitted, FittedTrapezoidal, Fused, Gauss, JointRule, Midpoint, OneSided, Trapezoidal,
+    DisplacementRule, Fitted, FittedTrapezoidal, Fused, Gauss, JointRule, Midpoint, OneSided, Proximal,
+    Trapezoidal,
 };
 #[doc(no_inline)]
 pub use crate::run::tolerance::{OffersMethods, WithGauss, WithSplittings};
@@ -22,14 +23,15 @@ pub use crate::run::{
     DriftMemory, Explicit, ExplicitDriftMemory, ExplicitInLanes, ExplicitMemory, KeptMatrix, VelocityHistory,
 };
 #[doc(no_inline)]
-pub use crate::step::{Constraints, DiscreteInLanes, Free, Momenta, Segment, StepKernel};
+pub use crate::step::{Constraints, DiscreteInLanes, Free, Friction, Momenta, Segment, StepKernel};
 #[doc(no_inline)]
 pub use crate::system::{
     ActingForce, Constrained, ConstrainedParameters, ConstraintsBy, CyclicCoordinate, Damping, Driven,
-    Engine, Force, ForcedLagrangian, ForcedLagrangianInLanes, Function, Gathered, GeneratedDiffers,
-    GradientBy, Input, Lagrangian, NewtonStructure, NoDerivative, Normals, OfSlice, Operation, Parameters,
-    Place, Plain, PlainFields, Quantity, Rayleigh, Refusal, ScalarField, SecondOrder, SliceMethods, Stages,
-    Structure, TimeScale, VectorField, Violation, Written, first_rows, last_rows, normals, violation,
+    DryFriction, Engine, Force, ForcedLagrangian, ForcedLagrangianInLanes, Function, Gathered,
+    GeneratedDiffers, GradientBy, Input, Lagrangian, NewtonStructure, NoDerivative, Normals, OfSlice,
+    Operation, Parameters, Place, Plain, PlainFields, Quantity, Rayleigh, Refusal, ScalarField, SecondOrder,
+    SliceMethods, Slips, SmoothRayleigh, Stages, Structure, TimeScale, VectorField, Violation, Written,
+    first_rows, last_rows, normals, violation,
 };
 
 /// Implements [`Described`](crate::system::Described), and makes a macro of the system's name, which hands

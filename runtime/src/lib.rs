@@ -257,13 +257,14 @@ mod attributes {
 /// | `gauss` | [`Gauss<S>`](Gauss), order 2S for S = 1…8, self-adjoint; for small errors | |
 /// | `fitted` | [`Fitted`], order 2, self-adjoint; does not ring under stiff damping | L = ½vᵀMv − V(q) with constant M, linear damping, no force, input, time, `parameters` or `step_derivatives` |
 /// | `fitted_trapezoidal` | [`FittedTrapezoidal`], the same made explicit; exact law of phase volume | as `fitted` |
-/// | `one_sided` | [`OneSided`], order 1; for stiff damping that is not linear, such as dry friction | R(v) convex; no force, input, time, `parameters` or `step_derivatives` |
+/// | `proximal` | [`Proximal`], order 2 while it slides; for dry friction: what sticks, sticks to the last bit | kinks of R, such as \|v\|, of what is linear in v; no constraints, `time_scale`, `parameters` or `step_derivatives` |
+/// | `one_sided` | [`OneSided`], order 1; for stiff damping that is not linear | R(v) convex; no force, input, time, `parameters` or `step_derivatives` |
 ///
 /// # Options
 ///
 /// | option | |
 /// |---|---|
-/// | `rule = midpoint`, `rule = [midpoint, trapezoidal]` | the rules of discretisation; midpoint unless said |
+/// | `rule = midpoint`, `rule = [midpoint, trapezoidal]` | the rules; midpoint unless said |
 /// | `derivatives = auto`, `expanded`, `num_dual` | who makes the derivatives; written out where that can be, up to 20 000 operations in one function, unless said |
 /// | `parameters = [m, c[0]]` | fields by which the step is differentiated: [`by_parameters`](derivative::StepTaken::by_parameters); written out only |
 /// | `step_derivatives = second` | second derivatives of the step: [`StepHessian`](derivative::StepHessian) |
@@ -416,7 +417,7 @@ pub use attributes::differentiable;
 pub use numbers::Elementary;
 use numbers::{functions, names};
 #[doc(inline)]
-pub use rules::{Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, Trapezoidal};
+pub use rules::{Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, Proximal, Trapezoidal};
 #[doc(inline)]
 pub use run::{Checkpoint, Composition, Discretise, Splitting, Trajectory};
 #[doc(inline)]

@@ -106,6 +106,12 @@ statuses! {
     NoStep = 28, "DALEMBERT_NO_STEP", "no step was taken since the run began or its parameters were set: take one, and ask for its reactions then";
     /// A constraint has no value or no derivative where it was evaluated.
     NoDerivativeOfConstraint = 29, "DALEMBERT_NO_DERIVATIVE_OF_CONSTRAINT", "a constraint or its derivative is NaN or infinite there, as that of sqrt(s) at s = 0: look at parameters and configuration, violation says at which constraint";
+    /// A friction force would push.
+    NegativeFriction = 30, "DALEMBERT_NEGATIVE_FRICTION", "the factor of a kink of R is negative, so that friction would push: look at the parameters";
+    /// Friction falls with the velocity too fast for the step.
+    NotConvex = 31, "DALEMBERT_NOT_CONVEX", "friction falls with the velocity faster than a step of this size can follow: try a smaller step";
+    /// A friction force that holds is at its limit.
+    AtLimitOfFriction = 32, "DALEMBERT_AT_LIMIT_OF_FRICTION", "friction holds at its limit, so that the step has no derivative there: ask at another state";
 }
 
 impl From<StepError> for Status {
@@ -142,6 +148,9 @@ impl From<&StepError> for Status {
             StepError::OffConstraint { .. } => Self::OffConstraint,
             StepError::LeavesConstraint { .. } => Self::LeavesConstraint,
             StepError::DependentConstraints { .. } => Self::DependentConstraints,
+            StepError::NegativeFriction { .. } => Self::NegativeFriction,
+            StepError::NotConvex { .. } => Self::NotConvex,
+            StepError::AtLimitOfFriction { .. } => Self::AtLimitOfFriction,
             StepError::NoVelocity { .. } => Self::NoVelocity,
             StepError::SingularNewtonMatrix { .. } => Self::SingularNewtonMatrix,
             StepError::NoRealSolution { .. } => Self::NoRealSolution,

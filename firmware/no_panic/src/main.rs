@@ -15,6 +15,7 @@
 #![cfg_attr(feature = "may-panic", allow(dead_code))]
 
 mod constrained;
+mod frictional;
 mod gauss;
 mod systems;
 
@@ -38,7 +39,7 @@ fn panic(_: &PanicInfo) -> ! {
 #[unsafe(no_mangle)]
 pub extern "C" fn main() -> i32 {
     #[cfg(not(feature = "may-panic"))]
-    let failed = systems::step_all() + gauss::step_all() + constrained::step_all();
+    let failed = systems::step_all() + gauss::step_all() + constrained::step_all() + frictional::step_all();
     #[cfg(feature = "may-panic")]
     let failed = [1, 2, 3][black_box(gauss::step_all()) as usize];
     black_box(failed)

@@ -247,6 +247,9 @@ fn rules(name: &Ident, words: Vec<Ident>, rules: &mut Rules, report: &mut Report
             if rule.joint().is_some() {
                 rules.joint.push((word.clone(), rule));
             }
+            if rule == Rule::Proximal {
+                rules.proximal = Some(word.clone());
+            }
             let is_known = rules.of_displacement.contains(&rule);
             if !is_known {
                 rules.of_displacement.push(rule);

@@ -6,7 +6,7 @@ use super::dual::rewrite;
 use super::dual::{self, Twins};
 use super::lower::{self, Refusal};
 use super::model::{Engine, Runtime, System};
-use super::{constraints, joint, lanes, parameters};
+use super::{constraints, joint, kinks, lanes, parameters};
 
 /// Bodies of at most as many expressions are lowered where rewriting them is doubtful: what stands in loops
 /// and calls is then written out once for each.
@@ -32,6 +32,7 @@ pub fn engine(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Dec
     }
     lanes::check(system, report);
     constraints::check(system, report);
+    kinks::check(system, report);
     match system.engine {
         Engine::NumDual => by_duals(system, report),
         Engine::Auto if !asks_for_code(system) => by_either(system, runtime, report),
@@ -39,11 +40,11 @@ pub fn engine(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Dec
     }
 }
 
-/// Whether derivatives by parameters are asked for, code on lanes or fused sums, or constraints hold the
-/// system: dual numbers have none of them.
+/// Whether derivatives by parameters are asked for, code on lanes or fused sums, or constraints or friction
+/// hold the system: dual numbers have none of them.
 fn asks_for_code(system: &System<'_>) -> bool {
     let is_asked = !system.parameters.is_empty() || system.lanes.words().next().is_some();
-    is_asked || system.fused.is_some() || system.is_constrained()
+    is_asked || system.fused.is_some() || system.is_constrained() || kinks::are_asked(system)
 }
 
 /// `derivatives = auto`: written out where they can be.
@@ -99,6 +100,7 @@ fn expansion(system: &System<'_>, report: &mut Report) -> Result<Decision, Refus
     let derived = derived::functions(system, lowered)?;
     lanes::check_derived(system, &derived, report);
     constraints::check_derived(system, &derived, report);
+    kinks::check_derived(system, &derived, report);
     if !report.is_empty() {
         return Ok(Decision::Refused);
     }

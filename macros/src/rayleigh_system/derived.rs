@@ -9,6 +9,7 @@ mod directions;
 mod entries;
 mod explicit;
 mod kernel;
+mod kinks;
 mod length;
 mod midpoint;
 mod missing;
@@ -29,8 +30,10 @@ use super::lower::{Length, Load, Lowered, Refusal};
 use super::model::{Home, System};
 use super::parts::Part;
 pub use super::rules::Points;
+use super::rules::Rule;
 use super::structure::{self, Differentiated, Findings, Terms};
 pub use kernel::{Explicit, Kernel};
+pub use kinks::{Fault, Kinks};
 pub use missing::Places;
 pub use routine::{Kind, Of, Routine};
 pub use stages::{CONDITIONAL, Stages};
@@ -46,6 +49,8 @@ pub struct Derived {
     /// Functions of the traits, but for those of steps.
     pub functions: Vec<Routine>,
     pub constraints: constraints::Findings,
+    /// The kinks of R.
+    pub kinks: Kinks,
     /// Operations without a derivative: of the system and of its view.
     pub places: [Vec<Places>; 2],
     /// The equations at a stage of Gauss rules, or why they are left to the runtime.
@@ -113,13 +118,17 @@ pub fn functions(system: &System<'_>, lowered: Lowered) -> Result<Derived, Refus
     functions.extend(driven.map(|components| deriving.by_input(components)).transpose()?);
     functions.extend(deriving.all_by_parameters()?);
     functions.extend(deriving.all_along()?);
-    let findings = deriving.findings();
+    let kinks = deriving.find_kinks();
+    if !kinks.sizes.is_empty() && system.rules.of_displacement.contains(&Rule::Proximal) {
+        functions.extend(deriving.kinks(&kinks)?);
+    }
+    let findings = deriving.findings(&kinks);
     let stages = system.rules.gauss.then(|| deriving.stages()).transpose()?;
     let mut kernels = Vec::new();
     for newton in &findings.newton {
         // Rules that take L and R together bring their own kernel.
         let is_own = newton.rule.joint().is_none();
-        kernels.push(is_own.then(|| deriving.kernel(newton)).transpose()?);
+        kernels.push(is_own.then(|| deriving.kernel(newton, &kinks)).transpose()?);
     }
     deriving.complete()?;
     if system.rules.ask_for_cancelling_terms() {
@@ -135,6 +144,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered) -> Result<Derived, Refus
         findings,
         functions,
         constraints: held,
+        kinks,
         places,
         stages,
         kernels,
@@ -167,16 +177,19 @@ struct Deriving<'s> {
 
 impl Deriving<'_> {
     /// Finds the system's structure in its expressions.
-    fn findings(&mut self) -> Findings {
+    fn findings(&mut self, kinks: &Kinks) -> Findings {
         let mut differentiated = |root: Node, symbol: &str| Differentiated {
             root,
             derivatives: self.derivation.hessian(&mut self.graph, root, symbol),
         };
         let lagrangian = differentiated(self.lagrangian, "l");
         let rayleigh = self.rayleigh.map(|root| differentiated(root, "r"));
+        let smooth = kinks.smooth.map(|root| differentiated(root, "r"));
         let components = self.force.unwrap_or_default();
         let force: Vec<_> = components.iter().copied().zip(self.rows(components)).collect();
-        let terms = Terms { lagrangian: &lagrangian, rayleigh: rayleigh.as_ref(), force: &force };
+        let (rayleigh, smooth) = (rayleigh.as_ref(), smooth.as_ref());
+        let kinks = kinks.sizes.len();
+        let terms = Terms { lagrangian: &lagrangian, rayleigh, smooth, kinks, force: &force };
         structure::findings(&self.graph, self.system, self.n, &terms)
     }
 }

@@ -90,6 +90,7 @@ fn engine(system: &System<'_>, refusal: Option<Refusal>) -> EngineFunctions {
         time_scale: system.has(Part::TimeScale).then(|| derivatives::of_time_scale(system)),
         constraints: None,
         constraints_by_parameters: None,
+        friction: None,
         by_input: system.input.as_ref().map(|input| derivatives::by_input(system, input)),
         cancelling_terms: system
             .rules

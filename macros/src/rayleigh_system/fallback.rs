@@ -195,6 +195,11 @@ fn stubs(
             }
         }
     });
+    let smooth = rules.contains(&Rule::Proximal).then(|| {
+        quote!(
+            impl ::dalembert::generated::SmoothRayleigh<#n> for #name {}
+        )
+    });
     let gathered = lanes.words().next().map(|_| {
         quote! {
             impl ::dalembert::generated::Gathered<#n> for #name {
@@ -229,6 +234,7 @@ fn stubs(
                 fn force_derivatives(&self, _: #vector, _: #vector) -> ::dalembert::generated::CovectorDerivatives<#scalar, #n> { ::core::unreachable!() }
             }
             impl ::dalembert::generated::ActingForce<#n> for #name {}
+            #smooth
             #forced
             #offered
             #explicit

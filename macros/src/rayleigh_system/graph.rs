@@ -13,6 +13,7 @@ mod combination;
 mod factor;
 mod fused;
 mod operation;
+mod replaced;
 mod spelled;
 mod text;
 mod zeros;

@@ -10,6 +10,8 @@ pub struct Rules {
     pub of_displacement: Vec<Rule>,
     /// Rules of `of_displacement` that take L and R together, each with its word in the attribute.
     pub joint: Vec<(Ident, Rule)>,
+    /// The word of the rule that takes kinks of R apart, if it is listed.
+    pub proximal: Option<Ident>,
     /// Whether the rules of Gauss are listed, which the runtime implements for every forced Lagrangian.
     pub gauss: bool,
 }
@@ -38,6 +40,7 @@ pub enum Rule {
     Fitted,
     FittedTrapezoidal,
     OneSided,
+    Proximal,
 }
 
 /// All that the macro knows of a rule.
@@ -109,8 +112,14 @@ pub struct Joint {
 
 impl Rule {
     /// In the order in which messages name them.
-    pub const ALL: [Self; 5] =
-        [Self::Midpoint, Self::Trapezoidal, Self::Fitted, Self::FittedTrapezoidal, Self::OneSided];
+    pub const ALL: [Self; 6] = [
+        Self::Midpoint,
+        Self::Trapezoidal,
+        Self::Fitted,
+        Self::FittedTrapezoidal,
+        Self::OneSided,
+        Self::Proximal,
+    ];
 
     /// The rule of that word in the attribute.
     pub fn named(word: &str) -> Option<Self> {
@@ -174,6 +183,14 @@ impl Rule {
                     is_linear: false,
                     memory: "VelocityHistory",
                 }),
+                is_self_adjoint: false,
+            },
+            Self::Proximal => Entry {
+                word: "proximal",
+                name: "Proximal",
+                points: Points::Middle,
+                matrix: Pairs::All,
+                terms: Terms::Separate { may_be_explicit: false },
                 is_self_adjoint: false,
             },
         }

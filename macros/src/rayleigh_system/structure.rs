@@ -46,6 +46,8 @@ pub struct Findings {
     /// ∂L/∂v holds the time.
     pub timed_momenta: bool,
     pub damping: Damping,
+    /// How many kinks R has in v.
+    pub kinks: usize,
     pub cyclic: Vec<Cyclic>,
     pub newton: Vec<Newton>,
 }
@@ -94,6 +96,9 @@ pub struct Differentiated {
 pub struct Terms<'t> {
     pub lagrangian: &'t Differentiated,
     pub rayleigh: Option<&'t Differentiated>,
+    /// R without its kinks, and how many they are.
+    pub smooth: Option<&'t Differentiated>,
+    pub kinks: usize,
     /// The components and the gradient of each.
     pub force: &'t [(Node, Gradient)],
 }
@@ -101,7 +106,7 @@ pub struct Terms<'t> {
 /// Finds the structure of the terms, and of the Newton matrix of each rule.
 pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>) -> Findings {
     let degrees = Degrees::of(graph);
-    let Terms { lagrangian, rayleigh, force } = terms;
+    let Terms { lagrangian, rayleigh, smooth, force, .. } = terms;
     let damping = match rayleigh {
         None => Damping::Absent,
         Some(_) if system.takes_time(Part::Rayleigh) => Damping::Unknown,
@@ -142,6 +147,7 @@ pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>)
 
     let newton = system.rules.of_displacement.iter().map(|&rule| {
         let pairs = rule.entry().matrix;
+        let rayleigh = if rule == Rule::Proximal { smooth } else { rayleigh };
         let mut entries = of_pairs(&lagrangian.derivatives, pairs);
         if let Some(r) = rayleigh {
             entries.extend(of_pairs(&r.derivatives, pairs));
@@ -196,6 +202,7 @@ pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>)
         fused: system.fused.is_some(),
         timed_momenta,
         damping,
+        kinks: terms.kinks,
         cyclic: cyclic.collect(),
         newton: newton.collect(),
     }
@@ -246,6 +253,10 @@ impl Structure {
             let found =
                 found.iter().filter(|(is_found, _)| *is_found).map(|(_, name)| format_ident!("{name}"));
             let damping = format_ident!("{}", format!("{:?}", findings.damping));
+            let kinks = (findings.kinks > 0).then(|| {
+                let count = Literal::usize_unsuffixed(findings.kinks);
+                quote!(.with_kinks(#count))
+            });
             let cyclic = findings.cyclic.iter().map(|&Cyclic { index, damped, forced }| {
                 let index = Literal::usize_unsuffixed(index);
                 quote!(::dalembert::generated::CyclicCoordinate::new(#index, #damped, #forced))
@@ -258,6 +269,7 @@ impl Structure {
             quote! {
                 #(.#found())*
                 .with_damping(::dalembert::generated::Damping::#damping)
+                #kinks
                 #cyclic
                 .with_newton_matrices(&[#(#newton),*])
             }

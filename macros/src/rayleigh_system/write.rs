@@ -4,6 +4,7 @@
 mod constrained;
 mod continuous;
 pub mod expanded;
+mod friction;
 mod fused;
 mod imports;
 mod in_lanes;
@@ -18,6 +19,7 @@ use syn::Ident;
 
 use super::model::System;
 use super::structure::{Engine, Structure};
+pub use friction::Friction;
 pub use fused::{Kernel, Memory};
 pub use in_lanes::LaneFunctions;
 use item::PlainFields;
@@ -38,6 +40,8 @@ pub struct EngineFunctions {
     pub constraints: Option<(TokenStream, bool)>,
     /// Derivatives of the constraints by the parameters.
     pub constraints_by_parameters: Option<TokenStream>,
+    /// The kinks of R, where a rule takes them apart from the rest.
+    pub friction: Option<Friction>,
     /// The derivative of f by the input.
     pub by_input: Option<TokenStream>,
     /// Sizes of the terms that cancel in the equations of motion, where some can.
@@ -93,6 +97,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
     let forced = system.rules.gauss.then(|| continuous::forced_lagrangian(system, functions.stages));
     let driven = functions.by_input.and_then(|by_input| on_request::driven(system, by_input));
     let by_parameters = functions.by_parameters.map(|functions| on_request::by_parameters(system, functions));
+    let friction = functions.friction.map(|kinks| friction::dry_friction(system, &kinks));
     let second_order = functions.second_order.map(|functions| on_request::second_order(system, functions));
     let rules = system.rules.of_displacement.iter().zip(functions.kernels);
     let fused = rules.map(|(&rule, kernel)| fused::fused(system, rule, (is_expanded, may_cancel), kernel));
@@ -122,6 +127,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
             #driven
             #by_parameters
             #second_order
+            #friction
             #(#fused)*
             #in_lanes
             #offered_methods

@@ -88,6 +88,13 @@ fn every_name_that_generated_code_brings_along_is_listed() {
     }
     let joint = quote!(rule = [fitted, fitted_trapezoidal, one_sided]);
     names(rayleigh_system(Runtime::STD, joint, linear.clone()), false, &mut found);
+    let kinked = quote! {
+        impl System {
+            fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 { 0.5 * v[0] * v[0] - q[0] }
+            fn rayleigh(&self, v: [f64; 1]) -> f64 { v[0].abs() }
+        }
+    };
+    names(rayleigh_system(Runtime::STD, quote!(rule = proximal), kinked), false, &mut found);
     let lanes = quote!(rule = [midpoint, trapezoidal, gauss], lanes = [explicit, midpoint, gauss]);
     names(rayleigh_system(Runtime::STD, lanes, linear), false, &mut found);
     for field in [

@@ -79,13 +79,14 @@ pub trait Border<L: Lagrangian<N> + ?Sized, R, const N: usize> {
     fn nearest(system: &L, state: &State<L::Scalar, N>) -> Option<State<L::Scalar, N>>;
 
     /// ∂q1/∂p0 at fixed q0, and the border's share of the equations on the `segment` of a step, where its
-    /// momenta have the derivatives `k`.
+    /// momenta have the derivatives `k`; from the momentum `p0`, if it is a step that was taken.
     ///
     /// # Errors
     /// [`StepError::SingularNewtonMatrix`] where the step has no derivative, [`StepError::NonFinite`].
     fn linearized(
         system: &L,
         segment: &Segment<L::Scalar, N>,
+        p0: Option<&SVector<L::Scalar, N>>,
         k: &LegendreDerivatives<L::Scalar, N>,
     ) -> Result<(SMatrix<L::Scalar, N, N>, Self::Linearized), StepError>;
 

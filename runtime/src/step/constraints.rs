@@ -22,9 +22,9 @@
 //! as they are, and no second derivative of g is asked for.
 
 mod bordered;
-mod complement;
+pub(super) mod complement;
 mod equation;
-mod independent;
+pub(super) mod independent;
 mod inertia;
 mod linearized;
 mod nearest;
@@ -130,6 +130,7 @@ where
     fn linearized(
         system: &L,
         segment: &Segment<L::Scalar, N>,
+        _: Option<&SVector<L::Scalar, N>>,
         k: &LegendreDerivatives<L::Scalar, N>,
     ) -> Result<(SMatrix<L::Scalar, N, N>, Self::Linearized), StepError> {
         Linearized::of::<L, R>(system, segment, k)

@@ -112,6 +112,29 @@ pub enum StepError {
         /// from the state given.
         taken: f64,
     },
+    /// A kink of R with a negative factor, which pushes where it should hold.
+    NegativeFriction {
+        /// The component of the kinks of R, from 0 in the order of R.
+        component: usize,
+        /// Its factor.
+        limit: f64,
+    },
+    /// The objective of a step with friction is not convex: friction falls with the velocity faster than a
+    /// step of this length can follow, h max|F′| ≥ 2m.
+    NotConvex {
+        /// The component of the kinks of R, from 0 in the order of R.
+        component: usize,
+        /// The step size.
+        h: f64,
+        /// A step size that would do at the velocity at which it was met.
+        enough: f64,
+    },
+    /// A friction force that holds is at its limit: the least change makes it slide, and the step has no
+    /// derivative.
+    AtLimitOfFriction {
+        /// The component of the kinks of R, from 0 in the order of R.
+        component: usize,
+    },
     /// No velocity in reach has this momentum: ∂L/∂v(q, v) = p, which no step size enters.
     NoVelocity {
         /// Largest residual p − ∂L/∂v.
@@ -288,6 +311,20 @@ impl fmt::Display for StepError {
                 "the step asked about is not that of the state given by h = {h}: from there its mean velocity takes {taken} \
                  to its end; give the state that it was taken from, and ask the system with the step size that it was \
                  taken with"
+            ),
+            Self::NegativeFriction { component, limit } => write!(
+                f,
+                "the factor of kink {component} of R is {limit:.3e}: friction would push; give it one that is not negative"
+            ),
+            Self::NotConvex { component, h, enough } => write!(
+                f,
+                "the friction of kink {component} of R falls with the velocity faster than a step of {h:.3e} can follow; \
+                 one of {enough:.3e} would"
+            ),
+            Self::AtLimitOfFriction { component } => write!(
+                f,
+                "the friction of kink {component} of R holds at its limit, so that the step has no derivative there; \
+                 ask at another state"
             ),
             Self::NoVelocity { residual } => write!(
                 f,

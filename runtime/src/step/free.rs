@@ -85,6 +85,7 @@ where
     fn linearized(
         _: &L,
         _: &Segment<L::Scalar, N>,
+        _: Option<&SVector<L::Scalar, N>>,
         k: &LegendreDerivatives<L::Scalar, N>,
     ) -> Result<(SMatrix<L::Scalar, N, N>, ()), StepError> {
         Ok((invert(&k.p0_by_q1)?, ()))

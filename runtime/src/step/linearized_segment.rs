@@ -1,6 +1,6 @@
 //! The equations of a step by formulas, linearised and factored once.
 
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 
 use crate::step::discrete::explained_on;
 use crate::step::{
@@ -69,23 +69,35 @@ where
         step: &Step<L::Scalar, N>,
         h: L::Scalar,
     ) -> Result<LinearizedSegment<'a, L, R, N>, StepError> {
-        Self::linearized_on(self.on(&Segment { q0: state.q, v: step.velocity, h })?)
+        linearized_from(self.on(&Segment { q0: state.q, v: step.velocity, h })?, Some(&state.p))
     }
 
     fn linearized_on<'a>(on: Formulas<'a, L, R, N>) -> Result<LinearizedSegment<'a, L, R, N>, StepError>
     where
         L: 'a,
     {
-        let k = on.legendre_derivatives()?;
-        let (q_by_p, border) = <L::Border as Border<L, R, N>>::linearized(on.system, on.segment(), &k)
-            .map_err(|error| explained_on::<L, R, N>(on.system, on.segment(), error))?;
-        Ok(LinearizedSegment { on, k, q_by_p, border })
+        linearized_from(on, None)
     }
 
     fn by_state(at: &LinearizedSegment<'_, L, R, N>) -> Result<PhaseMatrix<L::Scalar, N>, StepError> {
         <L::Border as Border<L, R, N>>::by_state(&at.k, &at.q_by_p, &at.border)
             .map_err(|error| at.explained(error))
     }
+}
+
+/// The equations on a segment; of a step that was taken from the momentum `p0`, if there is one.
+fn linearized_from<'a, L, R, const N: usize>(
+    on: Formulas<'a, L, R, N>,
+    p0: Option<&SVector<L::Scalar, N>>,
+) -> Result<LinearizedSegment<'a, L, R, N>, StepError>
+where
+    R: ByFormula,
+    L: ClosedForm<R, N> + Flow<R, N>,
+{
+    let k = on.legendre_derivatives()?;
+    let (q_by_p, border) = <L::Border as Border<L, R, N>>::linearized(on.system, on.segment(), p0, &k)
+        .map_err(|error| explained_on::<L, R, N>(on.system, on.segment(), error))?;
+    Ok(LinearizedSegment { on, k, q_by_p, border })
 }
 
 /// A of a step by a rule that has formulas.
@@ -103,7 +115,8 @@ where
         .on(&segment)?
         .legendre_derivatives()
         .and_then(|k| {
-            let (q_by_p, border) = <L::Border as Border<L, R, N>>::linearized(system, &segment, &k)?;
+            let (q_by_p, border) =
+                <L::Border as Border<L, R, N>>::linearized(system, &segment, Some(&state.p), &k)?;
             <L::Border as Border<L, R, N>>::by_state(&k, &q_by_p, &border)
         })
         .map_err(|error| explained_on::<L, R, N>(system, &segment, error))

@@ -40,6 +40,8 @@ pub struct Structure {
     pub fused_multiply_add: bool,
     /// The kind of the force −∂R/∂v.
     pub damping: Damping,
+    /// How many kinks R has in v, such as |v|, at which friction holds ([`Proximal`](crate::Proximal)).
+    pub kinks: usize,
     /// Coordinates on which L does not depend.
     pub cyclic: &'static [CyclicCoordinate],
     /// The Newton matrix ∂p0/∂v̄ by each rule that the attribute lists.
@@ -132,6 +134,7 @@ impl Structure {
         separable_lagrangian: false,
         fused_multiply_add: false,
         damping: Damping::Unknown,
+        kinks: 0,
         cyclic: &[],
         newton_matrices: &[],
     };
@@ -183,6 +186,12 @@ impl Structure {
     #[must_use]
     pub const fn with_damping(self, damping: Damping) -> Self {
         Self { damping, ..self }
+    }
+
+    /// This structure, of a system whose R has so many kinks in v.
+    #[must_use]
+    pub const fn with_kinks(self, kinks: usize) -> Self {
+        Self { kinks, ..self }
     }
 
     /// This structure, of a system whose L holds none of these coordinates.

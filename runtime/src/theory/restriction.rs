@@ -21,6 +21,7 @@ impl<L: Lagrangian<N>, R, const N: usize> Discretised<'_, L, R, N> {
             "constraints of velocity leave a step without a discrete Lagrangian, which this checker asks: of such \
              systems ask `dissipation` and `ledger`"
         );
+        Self::require_no_kinks();
     }
 
     /// Refuses constraints.
@@ -49,6 +50,15 @@ impl<L: Lagrangian<N>, R, const N: usize> Discretised<'_, L, R, N> {
             !L::IS_CONSTRAINED,
             "this checker asks systems without constraints: on holonomic ones ask `noether`, `rayleigh_step` and \
              `rayleigh_structure`, on any `dissipation` and `ledger`"
+        );
+        Self::require_no_kinks();
+    }
+
+    /// Refuses kinks of R, where friction holds beside L_d and f_d.
+    const fn require_no_kinks() {
+        assert!(
+            L::STRUCTURE.kinks == 0,
+            "where R has kinks a step is not one of L_d and f_d alone: of such systems ask `dissipation` and `ledger`"
         );
     }
 }

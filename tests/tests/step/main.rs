@@ -7,6 +7,7 @@ mod constraints;
 mod degenerate;
 mod equivalence;
 mod f32;
+mod friction;
 mod gauss_solver;
 mod inputs;
 mod legendre;

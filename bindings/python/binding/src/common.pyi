@@ -261,6 +261,7 @@ class _Structure(TypedDict):
     separable_lagrangian: bool
     fused_multiply_add: bool
     damping: str
+    kinks: int
     cyclic: list[dict[str, int | bool]]
     newton_matrices: list[dict[str, str | bool | int]]
 

@@ -211,6 +211,21 @@ fn described<'py>(py: Python<'py>, error: &StepError) -> PyResult<(&'static str,
             data.set_item("constraint", constraint)?;
             "DependentConstraints"
         }
+        StepError::NegativeFriction { component, limit } => {
+            data.set_item("component", component)?;
+            data.set_item("limit", limit)?;
+            "NegativeFriction"
+        }
+        StepError::NotConvex { component, h, enough } => {
+            data.set_item("component", component)?;
+            data.set_item("h", h)?;
+            data.set_item("enough", enough)?;
+            "NotConvex"
+        }
+        StepError::AtLimitOfFriction { component } => {
+            data.set_item("component", component)?;
+            "AtLimitOfFriction"
+        }
         _ => "StepError",
     };
     Ok((kind, data))

@@ -176,6 +176,7 @@ macro_rules! offers {
             "fitted" $crate::dalembert::Fitted,
             "fitted_trapezoidal" $crate::dalembert::FittedTrapezoidal,
             "one_sided" $crate::dalembert::OneSided,
+            "proximal" $crate::dalembert::Proximal,
             "gauss_2" $crate::dalembert::Gauss::<2>,
             "gauss_4" $crate::dalembert::Gauss::<4>,
             "gauss_6" $crate::dalembert::Gauss::<6>,

@@ -16,6 +16,7 @@ pub fn to_dict<'py>(py: Python<'py>, structure: &Structure) -> PyResult<Bound<'p
     found.set_item("separable_lagrangian", structure.separable_lagrangian)?;
     found.set_item("fused_multiply_add", structure.fused_multiply_add)?;
     found.set_item("damping", damping(structure.damping))?;
+    found.set_item("kinks", structure.kinks)?;
     let cyclic = PyList::empty(py);
     for coordinate in structure.cyclic {
         let entry = PyDict::new(py);

@@ -121,7 +121,7 @@ impl Deriving<'_> {
         self.made(Of::ConstraintsByParameters, self.system.home(), &outputs)
     }
 
-    fn reads_velocity(&self, root: Node) -> bool {
+    pub(super) fn reads_velocity(&self, root: Node) -> bool {
         let reached = self.graph.reachable([root]);
         reached.into_iter().any(|node| matches!(self.graph.operation(node), Operation::Velocity(_)))
     }

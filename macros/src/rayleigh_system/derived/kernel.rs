@@ -15,6 +15,8 @@ pub struct Kernel {
     /// Whether a run keeps the Newton matrix.
     pub keeps_matrix: bool,
     pub explicit: Option<Explicit>,
+    /// Components of the kinks that the step takes apart from the rest.
+    pub friction: usize,
     /// Both functions of several members at once.
     pub in_lanes: Option<[Routine; 2]>,
 }
@@ -52,11 +54,13 @@ const KEPT_FROM: usize = 3;
 
 impl Deriving<'_> {
     /// The kernel of a rule, in the form that its structure allows.
-    pub(super) fn kernel(&mut self, newton: &Newton) -> Made<Kernel> {
+    pub(super) fn kernel(&mut self, newton: &Newton, kinks: &Kinks) -> Made<Kernel> {
+        let is_apart = newton.rule == Rule::Proximal;
+        let rayleigh = if is_apart { kinks.smooth } else { self.rayleigh };
         let force = self.force.unwrap_or_default().to_vec();
         let lagrangian = self.derivation.hessian(&mut self.graph, self.lagrangian, "l");
         let rayleigh =
-            self.rayleigh.map(|root| self.derivation.hessian(&mut self.graph, root, "r")).unwrap_or_default();
+            rayleigh.map(|root| self.derivation.hessian(&mut self.graph, root, "r")).unwrap_or_default();
         let rows = self.rows(&force);
         let parts = Parts { lagrangian, rayleigh, force, rows };
         let points = newton.rule.entry().points;
@@ -66,7 +70,7 @@ impl Deriving<'_> {
         };
 
         let diagonals = diagonals(self.n, newton.bandwidth);
-        let is_in_lanes = points == Points::Middle && self.system.lanes.midpoint.is_some();
+        let is_in_lanes = newton.rule == Rule::Midpoint && self.system.lanes.midpoint.is_some();
         let kernel = [&p0[..], &self.in_form(&matrix, diagonals)].concat();
         let step_kernel = self.of_step(Of::StepKernel(points), &kernel, is_in_lanes)?;
         let momenta = self.of_step(Of::Momenta(points), &[p0, p1].concat(), is_in_lanes)?;
@@ -77,8 +81,9 @@ impl Deriving<'_> {
             momenta,
             diagonals,
             is_linear: newton.constant,
-            keeps_matrix: newton.constant || self.n >= KEPT_FROM,
+            keeps_matrix: !is_apart && (newton.constant || self.n >= KEPT_FROM),
             explicit,
+            friction: if is_apart { kinks.components() } else { 0 },
             in_lanes,
         })
     }

@@ -56,6 +56,12 @@ pub enum Of {
     ConstraintCurvature,
     /// ∂g/∂θ, ∂ρ/∂θ and ∂(Gᵀλ)/∂θ.
     ConstraintsByParameters,
+    /// u, ∂u/∂v, ∂u/∂q and F of the kinks of R.
+    Slips,
+    /// ∂/∂q of Σ F s·∂u/∂v.
+    SlipCurvature,
+    /// R without its kinks, as [`Derivatives`](Self::Derivatives).
+    SmoothRayleigh,
     /// ∂f/∂u.
     ForceByInput,
     /// ∂²/∂q∂θ and ∂²/∂v∂θ of L or R, ∂f/∂θ.
@@ -105,6 +111,7 @@ impl Of {
             Self::ConstraintCurvature | Self::ConstraintsByParameters => {
                 &["q", "v", "h", "half", "q0", "q1", "minus", "plus", "lambda"]
             }
+            Self::SlipCurvature => &["q", "v", "h", "half", "q0", "q1", "minus", "plus", "forces"],
             Self::Along(_) => &["q", "v", "h", "half", "q0", "q1", "minus", "plus", "a", "b"],
             _ => &["q", "v", "h", "half", "q0", "q1", "minus", "plus"],
         }

@@ -47,6 +47,14 @@ fn sentences(findings: &Findings) -> Vec<String> {
         }
         Damping::Nonlinear => sentences.push("The damping force −∂R/∂v is not linear in v.".to_owned()),
     }
+    match findings.kinks {
+        0 => {}
+        1 => sentences.push("R has a kink in v, at which its friction holds: `rule = proximal`.".to_owned()),
+        count => {
+            sentences
+                .push(format!("R has {count} kinks in v, at which its friction holds: `rule = proximal`."));
+        }
+    }
     sentences.extend(findings.newton.iter().map(|newton| newton_matrix(newton, findings.n)));
     for coordinate in &findings.cyclic {
         let i = subscript(coordinate.index);

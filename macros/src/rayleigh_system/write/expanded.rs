@@ -17,7 +17,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use syn::Ident;
 
-use super::super::derived::{self, Derived, Kind, Of, Routine};
+use super::super::derived::{self, Derived, Kind, Kinks, Of, Routine};
 use super::super::emit::{StraightLine, Writing, inlined};
 use super::super::graph::Node;
 use super::super::model::{Home, System};
@@ -25,7 +25,7 @@ use super::super::parts::Part;
 use super::super::rules::Points;
 use super::super::structure::{Engine, Structure};
 use super::item::{are_plain, as_written};
-use super::{EngineFunctions, Kernel, LaneFunctions, Memory, notice, view};
+use super::{EngineFunctions, Friction, Kernel, LaneFunctions, Memory, notice, view};
 use frame::{parameter, tuple, unused};
 use matrices::Shape;
 
@@ -76,6 +76,17 @@ fn functions(system: &System<'_>, derived: Derived, is_portable: bool) -> Engine
         )
     });
     let constraints = constraints.map(|functions| (functions, derived.constraints.is_prescribed));
+    let friction = text.functions_of(|of| matches!(of, Of::Slips | Of::SlipCurvature)).map(|functions| {
+        let Kinks { ref sizes, is_uniform, is_proportional, .. } = derived.kinks;
+        let sizes = sizes.clone();
+        Friction {
+            sizes,
+            is_uniform,
+            is_proportional,
+            functions,
+            smooth: text.functions_of(|of| of == Of::SmoothRayleigh),
+        }
+    });
     let constraints_by_parameters = text.functions_of(|of| of == Of::ConstraintsByParameters);
     let by_parameters = text.functions_of(|of| matches!(of, Of::ByParameters(_)));
     let second_order = text.functions_of(|of| matches!(of, Of::Along(_)));
@@ -89,6 +100,7 @@ fn functions(system: &System<'_>, derived: Derived, is_portable: bool) -> Engine
         time_scale,
         constraints,
         constraints_by_parameters,
+        friction,
         by_input,
         cancelling_terms,
         places,

@@ -20,6 +20,8 @@ pub struct Kernel {
     pub memory: Memory,
     /// The functions of an explicit step.
     pub explicit: Option<TokenStream>,
+    /// Components of the kinks of R that the step takes apart from the rest.
+    pub friction: usize,
 }
 
 /// The memory of a run.
@@ -46,7 +48,7 @@ pub fn fused(
     let n = system.degrees.times(1);
     let subject = subject(system, system.home());
     let name = rule.ident();
-    let Kernel { step_kernel, momenta, diagonals, is_linear, memory, explicit } =
+    let Kernel { step_kernel, momenta, diagonals, is_linear, memory, explicit, friction } =
         kernel.unwrap_or_else(|| of_terms(system, rule));
     let [inline_kernel, inline_momenta] = [&step_kernel, &momenta].map(inlined);
     let (matrix, kernel) = match diagonals {
@@ -75,6 +77,9 @@ pub fn fused(
     let border = if system.is_constrained() {
         let m = system.constraint_count();
         quote!(::dalembert::generated::Constraints<#m>)
+    } else if friction > 0 {
+        let components = Literal::usize_unsuffixed(friction);
+        quote!(::dalembert::generated::Friction<#components>)
     } else {
         quote!(::dalembert::generated::Free)
     };
@@ -156,13 +161,19 @@ fn of_terms(system: &System<'_>, rule: Rule) -> Kernel {
         is_linear: joint.is_some_and(|joint| joint.is_linear),
         memory: joint.map_or(Memory::Velocities, |joint| Memory::OfRule(joint.memory)),
         explicit: None,
+        friction: 0,
     }
 }
 
 /// `fn cancelling_terms`, by the rule.
 fn cancelling_terms(system: &System<'_>, rule: Rule) -> TokenStream {
     let (scalar, n, name) = (&system.scalar, system.degrees.times(1), rule.ident());
-    let functions = rule.joint().map_or_else(|| quote!(#name), |_| quote!(<#name as JointRule>));
+    let functions = match rule {
+        // Its smooth part is that of the midpoint rule.
+        Rule::Proximal => quote!(::dalembert::generated::Midpoint),
+        _ if rule.joint().is_some() => quote!(<#name as JointRule>),
+        _ => quote!(#name),
+    };
     quote! {
         /// Sizes of the terms that cancel in p0, at rest for instance.
         #[cold]

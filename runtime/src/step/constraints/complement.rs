@@ -10,7 +10,7 @@ use crate::numbers::{Factored, NewtonMatrix, Scalar};
 /// Where S is singular to rounding, its triangles are formed from the gradients themselves
 /// ([`Independent`]), which tell a constraint that nearly depends on others from one that is redundant.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Complement<S: Scalar, const M: usize> {
+pub(in crate::step) enum Complement<S: Scalar, const M: usize> {
     Regular(<SMatrix<S, M, M> as NewtonMatrix<S, M>>::Factored),
     Dependent(Independent<S, M>),
 }
@@ -19,7 +19,7 @@ impl<S: Scalar, const M: usize> Complement<S, M> {
     /// Of the `matrix` S; where that is singular, by its triangles. Nothing if it is singular beyond
     /// redundancy, or an entry is not finite.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn of(
+    pub(in crate::step) fn of(
         matrix: &SMatrix<S, M, M>,
         independent: impl FnOnce() -> Option<Independent<S, M>>,
     ) -> Option<Self> {
@@ -30,12 +30,12 @@ impl<S: Scalar, const M: usize> Complement<S, M> {
     }
 
     /// Whether constraints are redundant where this was formed.
-    pub(super) fn is_deficient(&self) -> bool {
+    pub(in crate::step) fn is_deficient(&self) -> bool {
         matches!(self, Self::Dependent(independent) if independent.is_deficient())
     }
 
     /// The solution of S x = `right`: of redundant constraints that of least Σ |Sₖₖ| xₖ².
-    pub(super) fn solve(&self, right: &SVector<S, M>) -> SVector<S, M> {
+    pub(in crate::step) fn solve(&self, right: &SVector<S, M>) -> SVector<S, M> {
         match self {
             Self::Regular(factored) => factored.solve(right),
             Self::Dependent(independent) => independent.solve(right),

@@ -28,7 +28,7 @@ const LITTLE: f64 = 0.01;
 /// M constraints of which some may be redundant, ready to solve S κ = b with: κ = Σₖ hₖ (eₖ·b) over those
 /// that are not, where yₖ = Σₗ eₖₗ Gₗ(q1), xₖ = dₖ Σₗ hₖₗ Gₗ(q0), and Σₗ |Sₗₗ| κₗ² is least.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Independent<S: Scalar, const M: usize> {
+pub(in crate::step) struct Independent<S: Scalar, const M: usize> {
     /// eₖ by columns, 0 of a redundant constraint.
     of_rows: SMatrix<S, M, M>,
     /// hₖ by columns.
@@ -114,7 +114,7 @@ impl<S: Scalar, const M: usize> Independent<S, M> {
     /// Of G(q1), G(q0)ᵀ and W⁻¹G(q0)ᵀ; nothing if S is singular beyond redundancy, or an entry is not finite.
     #[cold]
     #[inline(never)]
-    pub(super) fn of<const N: usize>(
+    pub(in crate::step) fn of<const N: usize>(
         rows: &SMatrix<S, M, N>,
         directions: &SMatrix<S, N, M>,
         answers: &SMatrix<S, N, M>,
@@ -192,12 +192,12 @@ impl<S: Scalar, const M: usize> Independent<S, M> {
     }
 
     /// Whether constraints are redundant.
-    pub(super) fn is_deficient(&self) -> bool {
+    pub(in crate::step) fn is_deficient(&self) -> bool {
         self.is_deficient
     }
 
     /// The solution of S κ = `right`.
-    pub(super) fn solve(&self, right: &SVector<S, M>) -> SVector<S, M> {
+    pub(in crate::step) fn solve(&self, right: &SVector<S, M>) -> SVector<S, M> {
         let mut kappa: SVector<S, M> = nalgebra::zero();
         for (of_rows, of_directions) in self.of_rows.data.0.iter().zip(&self.of_directions.data.0) {
             kappa += SVector::from(*of_directions) * dot(&SVector::from(*of_rows), right);

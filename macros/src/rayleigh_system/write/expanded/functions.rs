@@ -95,6 +95,38 @@ impl Text<'_> {
                 let ty = quote!(SMatrix<#scalar, #n, #n>);
                 (None, "constraint_curvature".to_owned(), ty, matrix(outputs, self.derived.n))
             }
+            Of::Slips => {
+                let count = outputs.len() / (2 + 2 * self.derived.n);
+                let (values, others) = outputs.split_at(count);
+                let (by_velocity, others) = others.split_at(count * self.derived.n);
+                let (by_configuration, limits) = others.split_at(count * self.derived.n);
+                let [by_velocity, by_configuration] =
+                    [by_velocity, by_configuration].map(|entries| matrix(entries, count));
+                let count = Literal::usize_unsuffixed(count);
+                let ty = quote!(::dalembert::generated::Slips<#scalar, #n, #count>);
+                let result = quote! {
+                    ::dalembert::generated::Slips {
+                        values: SVector::from([#(#values),*]),
+                        by_velocity: #by_velocity,
+                        by_configuration: #by_configuration,
+                        limits: SVector::from([#(#limits),*]),
+                    }
+                };
+                (inline, "slips".to_owned(), ty, result)
+            }
+            Of::SlipCurvature => {
+                let ty = quote!(SMatrix<#scalar, #n, #n>);
+                (None, "slip_curvature".to_owned(), ty, matrix(outputs, self.derived.n))
+            }
+            Of::SmoothRayleigh => {
+                let [value, d1, d2, d11, d12, d22] =
+                    self.parts(outputs, [Scalar, Vector, Vector, Matrix, Matrix, Matrix]);
+                let result = quote! {
+                    Derivatives { value: #value, d1: #d1, d2: #d2, d11: #d11, d12: #d12, d22: #d22 }
+                };
+                let ty = quote!(Derivatives<#scalar, #n>);
+                (inlined(statements), "smooth_rayleigh_derivatives".to_owned(), ty, result)
+            }
             Of::ForceByInput => {
                 let ty = quote!(SMatrix<#scalar, #n, #m>);
                 (inline, "force_by_input".to_owned(), ty, matrix(outputs, self.derived.n))
@@ -138,6 +170,7 @@ impl Text<'_> {
                 | Of::ConstraintGradients
                 | Of::ConstraintCurvature
                 | Of::ConstraintRounding
+                | Of::SlipCurvature
         );
         let v = (!of_configuration).then(|| {
             let v = parameter("v", line.uses_velocities);
@@ -147,6 +180,10 @@ impl Text<'_> {
             Of::Variations => (&["minus", "plus"], quote!(Direction<#scalar>)),
             Of::ConstraintCurvature | Of::ConstraintsByParameters => {
                 (&["lambda"], quote!(&SVector<#scalar, #constraints>))
+            }
+            Of::SlipCurvature => {
+                let count = Literal::usize_unsuffixed(self.derived.kinks.components());
+                (&["forces"], quote!(&SVector<#scalar, #count>))
             }
             Of::Along(Part::Force) => (&["vector"], quote!(&Vector)),
             Of::Along(_) => (&["a", "b"], quote!(&Vector)),

@@ -5,8 +5,16 @@ use super::*;
 impl Text<'_> {
     /// The kernel of a rule.
     pub(super) fn kernel(&self, kernel: &derived::Kernel) -> Kernel {
-        let derived::Kernel { step_kernel, momenta, diagonals, is_linear, keeps_matrix, explicit, .. } =
-            kernel;
+        let derived::Kernel {
+            step_kernel,
+            momenta,
+            diagonals,
+            is_linear,
+            keeps_matrix,
+            explicit,
+            friction,
+            ..
+        } = kernel;
         let line = self.line(step_kernel);
         let (p0, matrix) = line.outputs.split_at(self.derived.n);
         let ([p0], matrix) = (self.parts(p0, [Shape::Vector]), self.matrix_in_form(matrix, *diagonals));
@@ -28,6 +36,7 @@ impl Text<'_> {
                 () => Memory::Velocities,
             },
             explicit: explicit.as_ref().map(|explicit| self.explicit(explicit, *diagonals)),
+            friction: *friction,
         }
     }
 

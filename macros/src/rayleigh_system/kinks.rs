@@ -1,0 +1,59 @@
+//! The demands of friction that holds on a system, and on its R.
+
+use super::derived::{Derived, Fault};
+use super::diagnostics::{Mistake, Report};
+use super::model::{Engine, System};
+use super::parts::Part;
+use super::rules::Rule;
+
+/// Reports what the attribute asks for and steps with kinks do not have.
+pub fn check(system: &System<'_>, report: &mut Report) {
+    let Some(word) = &system.rules.proximal else { return };
+    let mut refuse = |lacks| report.at(word, Mistake::Kinks { lacks });
+    if system.engine == Engine::NumDual {
+        refuse("needs to see R, which `derivatives = num_dual` leaves to the run; leave that out");
+    }
+    if !system.has(Part::Rayleigh) {
+        refuse("holds by the kinks of a Rayleigh function, and there is none; use `midpoint`");
+    }
+    if system.is_constrained() {
+        refuse("is not solved on constraints; leave one of them out");
+    }
+    if system.has(Part::TimeScale) {
+        refuse("takes no steps that follow a time scale; remove `time_scale`");
+    }
+}
+
+/// Reports kinks that the rule does not take, and an R without any.
+pub fn check_derived(system: &System<'_>, derived: &Derived, report: &mut Report) {
+    let Some(word) = &system.rules.proximal else { return };
+    let at = system.source.functions().find(|function| function.sig.ident == Part::Rayleigh.name());
+    let at = at.map_or(word, |function| &function.sig.ident);
+    if derived.kinks.sizes.is_empty() {
+        let lacks =
+            "holds by kinks of R such as `v[0].abs()`, and this R has none; use `midpoint`, which it is then";
+        report.at(word, Mistake::Kinks { lacks });
+    }
+    let mut faults = derived.kinks.faults.clone();
+    faults.dedup();
+    for fault in faults {
+        let fault = match fault {
+            Fault::NotLinear => {
+                "a kink of R is of what is not linear in `v`: write it of what is, as |A(q) v − b(q, t)|"
+            }
+            Fault::NotApart => {
+                "a kink of R has a factor that depends on `v` or stands in another kink: leave in front of it \
+                 nothing but fields, `q` and the time"
+            }
+            Fault::LengthNotProportional => {
+                "a length of `v` stands in another function: R may be proportional to a length, or a function of |v|"
+            }
+        };
+        report.at(at, Mistake::Kink { fault });
+    }
+}
+
+/// Whether a rule that takes kinks apart is listed.
+pub fn are_asked(system: &System<'_>) -> bool {
+    system.rules.of_displacement.contains(&Rule::Proximal)
+}

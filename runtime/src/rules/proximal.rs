@@ -1,0 +1,180 @@
+use nalgebra::SVector;
+
+use super::force_work::by_nodes;
+use super::{DisplacementRule, Midpoint};
+use crate::numbers::{CovectorDerivatives, Derivatives, Gradient};
+use crate::step::{
+    ClosedForm, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteObjects, Fused,
+    LinearizedSegment, Segment, SolvedForVelocity, StateBy, StepError,
+};
+use crate::system::{ActingForce, Driven, Lagrangian, SmoothRayleigh};
+
+/// The midpoint rule with the kinks of R implicit at both ends of the step: dry friction that holds.
+///
+/// ```text
+/// R = R_s + R_k,   R_k = Σₖ Fₖ(q) |uₖ(q, v)|,   u linear in v,   Fₖ ≥ 0
+/// p0 ∈ −D1(L_d + R_d) − f_d⁻ + (h/2) ∂R_k(q̄, v̄)
+/// w  = D2(L_d − R_d) + f_d⁺                     L_d, f_d and R_d = (h²/2) R_s(q̄, v̄) of the midpoint rule
+/// w  ∈ ∂L/∂v(q1, v1) + (h/2) ∂R_k(q̄, v1)
+/// p1 = ∂L/∂v(q1, v1)
+/// ```
+///
+/// ```
+/// use dalembert::{Discretise, Proximal, State, rayleigh_system};
+///
+/// struct Block;
+///
+/// #[rayleigh_system(rule = proximal)]
+/// impl Block {
+///     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+///         0.5 * v[0] * v[0] - 0.5 * q[0] * q[0]
+///     }
+///     fn rayleigh(&self, v: [f64; 1]) -> f64 {
+///         0.2 * v[0].abs()
+///     }
+/// }
+///
+/// // It stops at 5.878, where the spring pulls by less than the friction holds.
+/// let start = State::from_velocity(&Block, [0.9], [-0.3])?;
+/// let mut run = Block.by(Proximal, 0.01).run(start);
+/// let stopped = run.nth(599).unwrap()?.state;
+/// assert!(stopped.p[0] == 0.0 && (stopped.q[0] - 0.161577310586).abs() < 1e-5);
+/// assert_eq!(run.nth(9_999).unwrap()?.state, stopped);
+/// # Ok::<(), dalembert::StepError>(())
+/// ```
+///
+/// **What is a kink.** `abs`, `max`, `min`, `hypot` and `sqrt` of a sum of squares, in R, of what is linear
+/// in v; in front of it a factor of fields, q and the time. |v|³ is none, since its force has no jump. Where
+/// |u| stands in another function, as in μ|v| − A e^(−|v|/b) for friction that falls with the velocity, Fₖ is
+/// the force at rest, and the rest of R counts as R_s.
+///
+/// **Derivation.** −∂R_k/∂v is a set where a slip u is 0: any force of size at most Fₖ along ∂u/∂v. Half of
+/// its impulse goes to either momentum, as of every force by the midpoint rule. The first line is the least
+/// of a convex function of v̄ where L = ½vᵀMv − V(q) and h is not too long, so that v̄ is one: with u = 0 as
+/// long as the force that holds is within its limit. Then v̄, and with all slips 0 q1 = q0, have no error at
+/// all. The second line is the Legendre transform at q1 with the friction in it: of the same kind, for v1. At
+/// rest p1 is 0.
+///
+/// **While it slides** by constant directions both lines have the same force, and the step is that of the
+/// midpoint rule with R_d = (h²/2) R, of order 2. Where it stops within a step, or a length turns, the step
+/// is of order 1: its error is half that of a rule with all of the friction at one end. Across such a step
+/// there is no R_d in general for two coordinates or more: checkers but for `dissipation` and `ledger` refuse
+/// kinks.
+///
+/// L_d and f_d, where they are asked for, are without the kinks: these hold the motion beside f_d, as
+/// reactions of constraints do. Limits and slips are those at q̄ in both lines, so that F(q) does not take
+/// from the order.
+///
+/// Not self-adjoint. A, B are those of what sticks and what slides; at the limit of the two there is none
+/// ([`StepError::AtLimitOfFriction`]).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Proximal;
+
+impl SolvedForVelocity for Proximal {}
+
+by_nodes!([] Proximal, of Midpoint);
+
+/// A system without the kinks of its R, `elapsed` from now.
+struct WithoutKinks<'a, L: Lagrangian<N>, const N: usize> {
+    system: &'a L,
+    elapsed: L::Scalar,
+}
+
+impl<'a, L: Lagrangian<N>, const N: usize> WithoutKinks<'a, L, N> {
+    fn of(system: &'a L) -> Self {
+        Self { system, elapsed: nalgebra::zero() }
+    }
+}
+
+impl<L: SmoothRayleigh<N>, const N: usize> Lagrangian<N> for WithoutKinks<'_, L, N> {
+    type Scalar = L::Scalar;
+
+    fn lagrangian(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> L::Scalar {
+        self.system.later(self.elapsed, |system| system.lagrangian(q, v))
+    }
+
+    fn lagrangian_derivatives(
+        &self,
+        q: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+    ) -> Derivatives<L::Scalar, N> {
+        self.system.later(self.elapsed, |system| system.lagrangian_derivatives(q, v))
+    }
+
+    fn later<T>(&self, elapsed: L::Scalar, evaluate: impl FnOnce(&Self) -> T) -> T {
+        evaluate(&Self { system: self.system, elapsed: self.elapsed + elapsed })
+    }
+}
+
+impl<L: SmoothRayleigh<N>, const N: usize> ActingForce<N> for WithoutKinks<'_, L, N> {
+    const HAS_RAYLEIGH: bool = L::HAS_SMOOTH;
+    const HAS_FORCE: bool = L::HAS_FORCE;
+    const IS_TIMED: bool = L::IS_TIMED;
+
+    fn dissipation(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> Gradient<L::Scalar, N> {
+        self.dissipation_derivatives(q, v).gradient()
+    }
+
+    fn dissipation_derivatives(
+        &self,
+        q: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+    ) -> Derivatives<L::Scalar, N> {
+        self.system.later(self.elapsed, |system| system.smooth_rayleigh_derivatives(q, v))
+    }
+
+    fn general_force_derivatives(
+        &self,
+        q: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+    ) -> CovectorDerivatives<L::Scalar, N> {
+        self.system.later(self.elapsed, |system| system.general_force_derivatives(q, v))
+    }
+}
+
+/// L_d and f_d of the midpoint rule, without the kinks: their forces hold the motion beside f_d, as reactions
+/// of constraints do.
+impl<L, const N: usize> ClosedForm<Proximal, N> for L
+where
+    L: Fused<Proximal, N> + SmoothRayleigh<N>,
+{
+    fn discrete_lagrangian(&self, segment: &Segment<L::Scalar, N>) -> L::Scalar {
+        Midpoint::discrete_lagrangian(self, segment)
+    }
+
+    fn discrete_lagrangian_derivatives(&self, segment: &Segment<L::Scalar, N>) -> Derivatives<L::Scalar, N> {
+        Midpoint::discrete_lagrangian_derivatives(self, segment)
+    }
+
+    fn discrete_force(&self, segment: &Segment<L::Scalar, N>) -> DiscreteForce<L::Scalar, N> {
+        Midpoint::discrete_force(&WithoutKinks::of(self), segment)
+    }
+
+    fn discrete_force_derivatives(
+        &self,
+        segment: &Segment<L::Scalar, N>,
+    ) -> DiscreteForceDerivatives<L::Scalar, N> {
+        Midpoint::discrete_force_derivatives(&WithoutKinks::of(self), segment)
+    }
+
+    fn segment_energy(&self, segment: &Segment<L::Scalar, N>) -> L::Scalar {
+        Midpoint::segment_energy(self, segment)
+    }
+
+    fn at_nodes(
+        &self,
+        segment: &Segment<L::Scalar, N>,
+        visit: &mut dyn FnMut(&Self, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>),
+    ) {
+        Midpoint::at_nodes(self, segment, visit);
+    }
+}
+
+impl<L, const N: usize, const M: usize> DiscreteDriven<Proximal, N, M> for L
+where
+    L: Fused<Proximal, N> + SmoothRayleigh<N> + Driven<N, M>,
+{
+    fn by_input(at: &LinearizedSegment<'_, L, Proximal, N>) -> Result<StateBy<L::Scalar, N, M>, StepError> {
+        at.answer(&Midpoint::force_by_input(at.on.segment(), at.on.system, L::force_by_input))
+    }
+}

@@ -1,0 +1,166 @@
+//! Steps with friction that holds: the kinks of R at both ends.
+//!
+//! ```text
+//! p0 ∈ −D1(L_d + R_d) − f_d⁻ + (h/2) ∂R_k(q̄, v̄)         R = R_s + R_k, and R_d that of R_s
+//! w  = D2(L_d − R_d) + f_d⁺
+//! w  ∈ ∂L/∂v(q1, v1) + (h/2) ∂R_k(q̄, v1)                p1 = ∂L/∂v(q1, v1)
+//! ```
+//!
+//! **The equation for v̄ alone.** With W = ∂p0/∂v̄ of the smooth part, r = p0(v̄) − p0 and D = (h/2) Fₖ
+//! ∂uₖ/∂v column by column, a Newton step solves for v̄ and the forces s at once:
+//!
+//! ```text
+//! W δ = r + D s = F(v̄),   u(v̄) − ∂u/∂v̄ δ = λ s,   |sₖ| ≤ 1,   λₖ = 0 where |sₖ| < 1
+//! ```
+//!
+//! Elements that stick are a border of W, as constraints of velocity are; which of them do, [`set`] finds.
+//! The solver of every other step is given F, whose root is the step, with the matrix W.
+
+mod element;
+mod end;
+mod equation;
+mod linearized;
+mod set;
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::numbers::{Factored, Scalar};
+use crate::step::{
+    Border, BoundedStep, ClosedForm, Discrete, LegendreDerivatives, Momenta, MomentaBy, PhaseMatrix, Segment,
+    State, StateBy, Step, StepError, step_by, step_within_by,
+};
+use crate::system::DryFriction;
+use end::{sticking, velocity};
+use equation::WithFriction;
+use linearized::LinearizedFriction;
+
+/// Kinks of R with M components in all, [`DryFriction`]: the border of a step with friction that holds.
+#[derive(Clone, Copy, Debug)]
+pub struct Friction<const M: usize>;
+
+/// The step that was solved for up to the momentum at its end.
+fn held<L, R, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    step: Step<L::Scalar, N>,
+    h: L::Scalar,
+    equation: &WithFriction<'_, L, R, N, M>,
+) -> Result<Step<L::Scalar, N>, StepError>
+where
+    L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M>,
+{
+    if !L::IS_PROPORTIONAL {
+        equation.require_convex(&Segment { q0: state.q, v: step.velocity, h })?;
+    }
+    let half = h * L::Scalar::constant(0.5);
+    let (mut v, mut w) = (step.velocity, step.state.p);
+    if let Some(held) = equation.held(&Segment { q0: state.q, v, h })
+        && held.sticks.contains(&true)
+    {
+        let middle = state.q + v * half;
+        v = system.later(half, |system| sticking(system, &middle, &v, &held));
+        w = system.momenta(&Segment { q0: state.q, v, h }).p1;
+    }
+    let (middle, q1) = (state.q + v * half, state.q + v * h);
+    let p1 = system
+        .later(half, |at_middle| {
+            at_middle.later(half, |at_end| velocity(at_end, &q1, (at_middle, &middle, h), &w, &v))
+        })?
+        .p;
+    Step::completed(state, h, v, &Momenta { p0: state.p, p1 }, step.report)
+}
+
+impl<L, R, const N: usize, const M: usize> Border<L, R, N> for Friction<M>
+where
+    L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M>,
+{
+    type Linearized = LinearizedFriction<L::Scalar, N, M>;
+    type Underway = ();
+
+    fn step(
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+        guess: Option<&SVector<L::Scalar, N>>,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        let equation = WithFriction::<L, R, N, M>::new(system, state);
+        let step = step_by(system, &equation, state, h, guess).map_err(|error| equation.explained(error))?;
+        held::<L, R, N, M>(system, state, step, h, &equation)
+    }
+
+    fn step_within(
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+        guess: Option<&SVector<L::Scalar, N>>,
+        iterations: u32,
+    ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
+        let equation = WithFriction::<L, R, N, M>::new(system, state);
+        let BoundedStep { step, converged } = step_within_by(system, &equation, state, h, guess, iterations)
+            .map_err(|error| equation.explained(error))?;
+        let step = held::<L, R, N, M>(system, state, step, h, &equation)?;
+        Ok(BoundedStep { step, converged })
+    }
+
+    /// The general way solves it.
+    fn underway(_: &L, _: &Segment<L::Scalar, N>, _: &impl Factored<L::Scalar, N>) -> Option<()> {
+        None
+    }
+
+    fn residual(
+        (): &(),
+        _: &L,
+        _: &Segment<L::Scalar, N>,
+        _: &impl Factored<L::Scalar, N>,
+        p: &SVector<L::Scalar, N>,
+        momenta: &mut Momenta<L::Scalar, N>,
+    ) -> SVector<L::Scalar, N> {
+        momenta.p0 - p
+    }
+
+    fn floor(
+        floor: SVector<L::Scalar, N>,
+        _: &SVector<L::Scalar, N>,
+        _: &SVector<L::Scalar, N>,
+    ) -> SVector<L::Scalar, N> {
+        floor
+    }
+
+    fn is_off((): &(), _: &L, _: &Segment<L::Scalar, N>) -> bool {
+        false
+    }
+
+    fn completed(_: &L, _: Step<L::Scalar, N>, _: L::Scalar) -> Option<Step<L::Scalar, N>> {
+        None
+    }
+
+    fn nearest(_: &L, state: &State<L::Scalar, N>) -> Option<State<L::Scalar, N>> {
+        Some(*state)
+    }
+
+    fn linearized(
+        system: &L,
+        segment: &Segment<L::Scalar, N>,
+        p0: Option<&SVector<L::Scalar, N>>,
+        k: &LegendreDerivatives<L::Scalar, N>,
+    ) -> Result<(SMatrix<L::Scalar, N, N>, Self::Linearized), StepError> {
+        LinearizedFriction::of::<L, R>(system, segment, p0, k)
+    }
+
+    fn by_state(
+        k: &LegendreDerivatives<L::Scalar, N>,
+        _: &SMatrix<L::Scalar, N, N>,
+        at: &Self::Linearized,
+    ) -> Result<PhaseMatrix<L::Scalar, N>, StepError> {
+        at.by_state(k)
+    }
+
+    fn answer<const P: usize>(
+        k: &LegendreDerivatives<L::Scalar, N>,
+        _: &SMatrix<L::Scalar, N, N>,
+        at: &Self::Linearized,
+        momenta: &MomentaBy<L::Scalar, N, P>,
+    ) -> Result<StateBy<L::Scalar, N, P>, StepError> {
+        at.answer(k, momenta)
+    }
+}

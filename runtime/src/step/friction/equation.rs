@@ -1,0 +1,301 @@
+//! The equation of a step with friction that holds, for v̄ alone.
+
+use core::cell::{Cell, RefCell};
+
+use nalgebra::{SMatrix, SVector};
+
+use super::set::{Elements, Held};
+use crate::numbers::{Factored, NewtonMatrix, Scalar};
+use crate::step::equation::{Equation, OfRule, StepEquation};
+use crate::step::{ClosedForm, Discrete, Fused, Momenta, Segment, State, StepError, StepKernel};
+use crate::system::{DryFriction, Lagrangian, Slips};
+
+/// Halvings of a step size, in search of one that would do.
+const HALVINGS: u32 = 40;
+
+/// Shares of a velocity at which friction that falls with it is looked at: where it falls most steeply is not
+/// known.
+const SHARES: [f64; 6] = [0.0, 0.0625, 0.125, 0.25, 0.5, 0.75];
+
+/// Slips on a segment with what a Newton matrix W makes of friction forces.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sliding<S, const N: usize, const M: usize> {
+    /// u.
+    values: SVector<S, M>,
+    /// ∂u/∂v̄ at fixed q0.
+    rows: SMatrix<S, M, N>,
+    /// (h/2) Fₖ ∂uₖ/∂v, column by column: what s adds to p0.
+    directions: SMatrix<S, N, M>,
+    /// The rows times W⁻¹ times the directions.
+    response: SMatrix<S, M, M>,
+}
+
+impl<S: Scalar, const N: usize, const M: usize> Sliding<S, N, M> {
+    /// Of these slips over a step of size `h`, where q is q0 + `share` v̄, with W `factored`.
+    ///
+    /// # Errors
+    /// [`StepError::NegativeFriction`], [`StepError::NotConvex`].
+    pub(super) fn of(
+        slips: &Slips<S, N, M>,
+        (share, h): (S, S),
+        factored: &impl Factored<S, N>,
+    ) -> Result<Self, StepError> {
+        let directions = direction_of(slips, h)?;
+        let rows = slips.by_velocity + slips.by_configuration * share;
+        let response = rows * factored.solve_columns(&directions);
+        let mut own = response.data.0.iter().enumerate().map(|(k, column)| column.get(k));
+        if let Some(component) = own.position(|entry| entry.is_some_and(|entry| *entry < S::zero())) {
+            return Err(StepError::NotConvex { component, h: h.widen(), enough: 0.0 });
+        }
+        Ok(Self { values: slips.values, rows, directions, response })
+    }
+
+    /// s, and what sticks, of what is `left` of the equation without friction.
+    pub(super) fn held(
+        &self,
+        sizes: &[usize],
+        factored: &impl Factored<S, N>,
+        left: &SVector<S, N>,
+        start: &SVector<S, M>,
+    ) -> Option<Held<S, M>> {
+        let free = self.values - self.rows * factored.solve(left);
+        Elements { sizes, response: self.response, free }.held(start)
+    }
+
+    /// The share of the friction forces s in p0.
+    pub(super) fn impulse(&self, forces: &SVector<S, M>) -> SVector<S, N> {
+        self.directions * forces
+    }
+}
+
+/// (h/2) Fₖ ∂uₖ/∂v, column by column.
+///
+/// # Errors
+/// [`StepError::NegativeFriction`].
+pub(super) fn direction_of<S: Scalar, const N: usize, const M: usize>(
+    slips: &Slips<S, N, M>,
+    h: S,
+) -> Result<SMatrix<S, N, M>, StepError> {
+    let impulse = h.abs() * S::constant(0.5);
+    let mut directions = slips.by_velocity.transpose();
+    let limits = slips.limits.as_slice().iter();
+    for (component, (column, limit)) in directions.data.0.iter_mut().zip(limits).enumerate() {
+        if *limit < S::zero() {
+            return Err(StepError::NegativeFriction { component, limit: limit.widen() });
+        }
+        column.iter_mut().for_each(|entry| *entry *= *limit * impulse);
+    }
+    Ok(directions)
+}
+
+/// The equation F(v̄) = 0 of a step with friction from a state (q0, p), as p + F(v̄) = p.
+pub(super) struct WithFriction<'a, L, R, const N: usize, const M: usize>
+where
+    L: ClosedForm<R, N>,
+{
+    system: &'a L,
+    free: OfRule<'a, L, R>,
+    state: &'a State<L::Scalar, N>,
+    /// Whether momenta take W of the last kernel.
+    is_frozen: Cell<bool>,
+    rounding: Cell<SVector<L::Scalar, N>>,
+    /// s and what sticks, as found last, and on which segment.
+    held: Cell<Option<Held<L::Scalar, M>>>,
+    on: Cell<Option<Segment<L::Scalar, N>>>,
+    last: RefCell<Option<Factors<L, R, N>>>,
+    /// An error of friction, and the velocity at which it was met.
+    error: Cell<Option<StepError>>,
+    at: Cell<SVector<L::Scalar, N>>,
+}
+
+type Factors<L, R, const N: usize> =
+    <<L as Fused<R, N>>::Matrix as NewtonMatrix<<L as Lagrangian<N>>::Scalar, N>>::Factored;
+
+impl<'a, L, R, const N: usize, const M: usize> WithFriction<'a, L, R, N, M>
+where
+    L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M>,
+{
+    pub(super) fn new(system: &'a L, state: &'a State<L::Scalar, N>) -> Self {
+        Self {
+            system,
+            free: OfRule::new(system),
+            state,
+            is_frozen: Cell::new(true),
+            rounding: Cell::new(nalgebra::zero()),
+            held: Cell::new(None),
+            on: Cell::new(None),
+            last: RefCell::new(None),
+            error: Cell::new(None),
+            at: Cell::new(nalgebra::zero()),
+        }
+    }
+
+    /// s and what sticks on the segment of the step.
+    pub(super) fn held(&self, segment: &Segment<L::Scalar, N>) -> Option<Held<L::Scalar, M>> {
+        // The solver may have looked elsewhere since.
+        if self.on.get().is_none_or(|on| on.v != segment.v || on.q0 != segment.q0) {
+            self.kernel(segment);
+        }
+        self.held.get()
+    }
+
+    /// The error of a step, by the friction where it is the cause.
+    #[cold]
+    pub(super) fn explained(&self, error: StepError) -> StepError {
+        match self.error.get() {
+            Some(StepError::NotConvex { component, h, .. }) => {
+                StepError::NotConvex { component, h, enough: self.convex_from(h) }
+            }
+            Some(of_friction) => of_friction,
+            None => error,
+        }
+    }
+
+    /// Fails where the objective is not convex at some velocity that lies between rest and that of the
+    /// segment.
+    #[cold]
+    pub(super) fn require_convex(&self, segment: &Segment<L::Scalar, N>) -> Result<(), StepError> {
+        for share in SHARES {
+            let segment = Segment { v: segment.v * L::Scalar::constant(share), ..*segment };
+            let half = segment.h * L::Scalar::constant(0.5);
+            let Some(factored) = self.free.kernel(&segment).matrix.factored() else { continue };
+            if let Err(error) = Sliding::of(&at_middle(self.system, &segment), (half, segment.h), &factored) {
+                self.error.set(Some(error));
+                self.at.set(segment.v);
+                return Err(self.explained(error));
+            }
+        }
+        Ok(())
+    }
+
+    /// A part of h from which on the objective is convex, at the velocity at which it was not.
+    #[cold]
+    fn convex_from(&self, h: f64) -> f64 {
+        let v = self.at.get();
+        let mut part = h;
+        for _ in 0..HALVINGS {
+            part *= 0.5;
+            // With some room.
+            let segment = Segment { q0: self.state.q, v, h: L::Scalar::constant(part * 1.125) };
+            let half = segment.h * L::Scalar::constant(0.5);
+            let factored = self.free.kernel(&segment).matrix.factored();
+            let slips = at_middle(self.system, &segment);
+            if factored.is_some_and(|factored| Sliding::of(&slips, (half, segment.h), &factored).is_ok()) {
+                break;
+            }
+        }
+        part
+    }
+
+    /// F with W factored, where p0 is this without friction; nothing where friction has no solution.
+    fn residual(
+        &self,
+        segment: &Segment<L::Scalar, N>,
+        factored: &impl Factored<L::Scalar, N>,
+        p0: &SVector<L::Scalar, N>,
+    ) -> Option<SVector<L::Scalar, N>> {
+        let half = segment.h * L::Scalar::constant(0.5);
+        let slips = at_middle(self.system, segment);
+        let sliding = match Sliding::of(&slips, (half, segment.h), factored) {
+            Ok(sliding) => sliding,
+            Err(error) => {
+                self.error.set(Some(error));
+                self.at.set(segment.v);
+                return None;
+            }
+        };
+        let left = p0 - self.state.p;
+        let start = self.held.get().map_or(nalgebra::zero(), |held| held.forces);
+        let held = sliding.held(L::ELEMENTS, factored, &left, &start);
+        self.held.set(held);
+        self.on.set(Some(*segment));
+        let held = held?;
+        let impulse = sliding.impulse(&held.forces);
+        self.rounding.set(impulse.abs() * (L::Scalar::EPSILON * L::Scalar::constant(4.0)));
+        Some(left + impulse)
+    }
+}
+
+/// Slips and limits at the middle of the segment.
+pub(super) fn at_middle<L, const N: usize, const M: usize>(
+    system: &L,
+    segment: &Segment<L::Scalar, N>,
+) -> Slips<L::Scalar, N, M>
+where
+    L: DryFriction<N, M>,
+{
+    let half = segment.h * L::Scalar::constant(0.5);
+    system.later(half, |system| system.slips(&(segment.q0 + segment.v * half), &segment.v))
+}
+
+impl<L, R, const N: usize, const M: usize> StepEquation<L::Scalar, N> for WithFriction<'_, L, R, N, M>
+where
+    L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M>,
+{
+    type Matrix = L::Matrix;
+
+    fn kernel(&self, segment: &Segment<L::Scalar, N>) -> StepKernel<L::Scalar, N, L::Matrix> {
+        let StepKernel { p0, matrix } = self.free.kernel(segment);
+        let factored = matrix.factored();
+        let residual = factored.as_ref().and_then(|factored| self.residual(segment, factored, &p0));
+        if let Ok(mut last) = self.last.try_borrow_mut() {
+            *last = factored;
+        }
+        match residual {
+            Some(residual) => StepKernel { p0: self.state.p + residual, matrix },
+            // Singular itself: what is solved with it says so.
+            None if factored.is_none() => StepKernel { p0, matrix },
+            None => StepKernel { p0, matrix: NewtonMatrix::zero() },
+        }
+    }
+
+    fn floor(&self, floor: SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
+        floor + self.rounding.get()
+    }
+
+    fn compare(&self) {
+        self.is_frozen.set(false);
+    }
+
+    fn momenta(&self, segment: &Segment<L::Scalar, N>) -> Momenta<L::Scalar, N> {
+        let Momenta { p0, p1 } = self.free.momenta(segment);
+        let residual = if self.is_frozen.get() {
+            match self.last.try_borrow().as_deref() {
+                Ok(Some(factored)) => self.residual(segment, factored, &p0),
+                _ => None,
+            }
+        } else {
+            self.free
+                .kernel(segment)
+                .matrix
+                .factored()
+                .and_then(|factored| self.residual(segment, &factored, &p0))
+        };
+        Momenta { p0: residual.map_or(p0, |residual| self.state.p + residual), p1 }
+    }
+
+    fn correction(&self, residual: &SVector<L::Scalar, N>) -> Option<SVector<L::Scalar, N>> {
+        let last = self.last.try_borrow().ok()?;
+        last.as_ref().map(|factored| factored.solve(residual))
+    }
+
+    fn inertia(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N> {
+        self.free.inertia(q, v)
+    }
+
+    fn cancelling(&self, segment: &Segment<L::Scalar, N>) -> SVector<L::Scalar, N> {
+        let forces = self.held.get().map_or(nalgebra::zero(), |held| held.forces);
+        let slips = at_middle(self.system, segment);
+        let forces = forces.component_mul(&slips.limits) * segment.h;
+        self.free.cancelling(segment)
+            + slips.by_velocity.transpose().abs() * forces.abs() * L::Scalar::constant(2.0)
+    }
+
+    fn kind(&self) -> Equation {
+        if L::IS_UNIFORM { self.free.kind() } else { Equation::General }
+    }
+
+    fn cause(&self, segment: &Segment<L::Scalar, N>) -> Option<StepError> {
+        self.free.cause(segment)
+    }
+}

@@ -1,0 +1,253 @@
+//! The derivatives of a step with friction that holds.
+//!
+//! With the derivatives K of the momenta without friction, D = (h/2) F ∂u/∂v column by column, and the
+//! elements that stick in the first line, those that stick in the second,
+//!
+//! ```text
+//! dp0 = K00 dq0 + K01 dq1 + d(D s)         du(q̄, v̄) = 0 of what sticks, s = u/|u| where it slides
+//! K10 dq0 + K11 dq1 = d ∂L/∂v(q1, v1) + d(D s1)         du(q̄, v1) = 0 of what sticks
+//! dp1 = d ∂L/∂v(q1, v1)
+//! ```
+//!
+//! Elements that stick are a border of the equations, as constraints of velocity are. An element at its edge,
+//! where the least change makes it slide or stick, has no derivative.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::element::elements;
+use super::end::velocity;
+use super::equation::{at_middle, direction_of};
+use crate::numbers::{Scalar, linear::by_columns};
+use crate::step::constraints::{complement::Complement, independent::Independent};
+use crate::step::{
+    ClosedForm, Discrete, LegendreDerivatives, MomentaBy, PhaseMatrix, Segment, StateBy, StepError, invert,
+};
+use crate::system::{DryFriction, Quantity};
+
+/// Roundings below which a slip is 0, beside those of its terms.
+const ROUNDINGS: f64 = 64.0;
+
+/// How near to its limit a friction force is at its edge.
+const EDGE: f64 = 1e-9;
+
+/// A line of the step with what sticks in it: an equation X dx + D ds = …, rows dx = ….
+struct Line<S: Scalar, const N: usize, const M: usize> {
+    inverse: SMatrix<S, N, N>,
+    rows: SMatrix<S, M, N>,
+    answers: SMatrix<S, N, M>,
+    complement: Complement<S, M>,
+}
+
+impl<S: Scalar, const N: usize, const M: usize> Line<S, N, M> {
+    fn of(
+        matrix: &SMatrix<S, N, N>,
+        directions: &SMatrix<S, N, M>,
+        rows: &SMatrix<S, M, N>,
+        sticks: &[bool; M],
+    ) -> Result<Self, StepError> {
+        let inverse = invert(matrix)?;
+        let (mut directions, mut rows) = (*directions, *rows);
+        let mut beside = SMatrix::<S, M, M>::zeros();
+        let columns = directions.data.0.iter_mut().zip(&mut beside.data.0).zip(sticks).enumerate();
+        for (k, ((direction, beside), _)) in columns.filter(|(_, (_, stick))| !**stick) {
+            direction.fill(S::zero());
+            beside.iter_mut().skip(k).take(1).for_each(|entry| *entry = S::one());
+        }
+        leave(&mut rows, sticks);
+        let answers = inverse * directions;
+        let complement =
+            Complement::of(&(rows * answers + beside), || Independent::of(&rows, &directions, &answers))
+                .ok_or(StepError::SingularNewtonMatrix { iteration: 0, column: 0 })?;
+        Ok(Self { inverse, rows, answers, complement })
+    }
+
+    /// x of X x + D s = `right`, rows x = `slip`.
+    fn solve<const K: usize>(&self, right: &SMatrix<S, N, K>, slip: &SMatrix<S, M, K>) -> SMatrix<S, N, K> {
+        let free = self.inverse * right;
+        let left = self.rows * free - slip;
+        free - self.answers * by_columns(&left, |left| self.complement.solve(left))
+    }
+}
+
+/// Leaves the rows of what sticks.
+fn leave<S: Scalar, const N: usize, const M: usize>(rows: &mut SMatrix<S, M, N>, sticks: &[bool; M]) {
+    for column in &mut rows.data.0 {
+        let slides = column.iter_mut().zip(sticks).filter(|(_, stick)| !**stick);
+        slides.for_each(|(entry, _)| *entry = S::zero());
+    }
+}
+
+/// The share of friction in the equations on the segment of a step.
+pub struct LinearizedFriction<S: Scalar, const N: usize, const M: usize> {
+    first: Line<S, N, M>,
+    /// d(D s) and du of what sticks by q0, without what q1 moves.
+    impulse_by_q0: SMatrix<S, N, N>,
+    slip_by_q0: SMatrix<S, M, N>,
+    second: Line<S, N, M>,
+    /// ½ d(D s1) and ½ du of what sticks in the second line, by q.
+    half_impulse: SMatrix<S, N, N>,
+    half_slip: SMatrix<S, M, N>,
+    mass: SMatrix<S, N, N>,
+    momentum_by_q: SMatrix<S, N, N>,
+}
+
+/// s and what sticks at the slips of a step, and Σ D ∂s/∂u where a length slides.
+struct State<S, const N: usize, const M: usize> {
+    forces: SVector<S, M>,
+    sticks: [bool; M],
+    turning: SMatrix<S, N, M>,
+}
+
+impl<S: Scalar, const N: usize, const M: usize> State<S, N, M> {
+    fn of(
+        sizes: &[usize],
+        slips: &SVector<S, M>,
+        directions: &SMatrix<S, N, M>,
+        terms: &SVector<S, M>,
+    ) -> Self {
+        let mut state = Self { forces: nalgebra::zero(), sticks: [false; M], turning: nalgebra::zero() };
+        for element in elements(sizes) {
+            let length = element.length(slips);
+            if length <= element.length(terms) * (S::EPSILON * S::constant(ROUNDINGS)) {
+                element.of_mut(&mut state.sticks).for_each(|stick| *stick = true);
+                continue;
+            }
+            let s = element.part(slips) / length;
+            state.forces += s;
+            if element.size > 1 {
+                let along = directions * s;
+                let own = element.of(&directions.data.0).zip(element.of(s.as_slice()));
+                for (column, (direction, s)) in element.of_mut(&mut state.turning.data.0).zip(own) {
+                    let entries = column.iter_mut().zip(direction).zip(along.as_slice());
+                    entries
+                        .for_each(|((entry, direction), along)| *entry = (*direction - *along * *s) / length);
+                }
+            }
+        }
+        state
+    }
+
+    /// Fails where a friction force that holds is at its limit.
+    fn require_off_edge(&self, sizes: &[usize]) -> Result<(), StepError> {
+        for element in elements(sizes) {
+            let is_stuck = element.head(&self.sticks) == Some(true);
+            if is_stuck && element.length(&self.forces) > S::one() - S::constant(EDGE) {
+                return Err(StepError::AtLimitOfFriction { component: element.first });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
+    pub(super) fn of<L, R>(
+        system: &L,
+        segment: &Segment<S, N>,
+        p0: Option<&SVector<S, N>>,
+        k: &LegendreDerivatives<S, N>,
+    ) -> Result<(SMatrix<S, N, N>, Self), StepError>
+    where
+        L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M, Scalar = S>,
+    {
+        let (half, h) = (S::constant(0.5), segment.h);
+        let slips = at_middle(system, segment);
+        let directions = direction_of(&slips, h)?;
+        let (by_v, by_q) = (slips.by_velocity / h, slips.by_configuration * half);
+        let (by_q0, by_q1) = (by_q - by_v, by_q + by_v);
+        let rest = system.later(h * half, |system| {
+            system.slips(&(segment.q0 + segment.v * (h * half)), &nalgebra::zero())
+        });
+        let terms = |v: &SVector<S, N>| slips.by_velocity.abs() * v.abs() + rest.values.abs();
+        let mut at = State::of(L::ELEMENTS, &slips.values, &directions, &terms(&segment.v));
+        let matrix = k.p0_by_q1 + at.turning * by_q1;
+        let first = Line::of(&matrix, &directions, &by_q1, &at.sticks)?;
+        if let Some(p0) = p0 {
+            let left = p0 - k.momenta.p0 - directions * at.forces;
+            let held = first.complement.solve(&(first.rows * (first.inverse * left)));
+            let entries = at.forces.as_mut_slice().iter_mut().zip(held.as_slice()).zip(at.sticks);
+            entries.filter(|(_, stick)| *stick).for_each(|((force, held), _)| *force = *held);
+            at.require_off_edge(L::ELEMENTS)?;
+        }
+        let curvature = |forces: &SVector<S, M>| {
+            if L::IS_UNIFORM {
+                return nalgebra::zero();
+            }
+            let middle = segment.q0 + segment.v * (h * half);
+            system.later(h * half, |system| system.slip_curvature(&middle, forces)) * (h.abs() * half * half)
+        };
+        let bent: SMatrix<S, N, N> = curvature(&at.forces);
+        let first = Line::of(&(matrix + bent), &directions, &by_q1, &at.sticks)?;
+        let impulse_by_q0 = at.turning * by_q0 + bent;
+        let sticks = at.sticks;
+
+        // The velocity at the end.
+        let w = k.momenta.p1;
+        let (middle, q1) = (segment.q0 + segment.v * (h * half), segment.q0 + segment.v * h);
+        let end = system.later(h * half, |at_middle| {
+            at_middle.later(h * half, |at_end| velocity(at_end, &q1, (at_middle, &middle, h), &w, &segment.v))
+        })?;
+        let at_end = system.later(h * half, |system| system.slips(&middle, &end.v));
+        let mut at = State::of(L::ELEMENTS, &at_end.values, &directions, &terms(&end.v));
+        at.forces = end.forces;
+        at.sticks = end.sticks;
+        at.require_off_edge(L::ELEMENTS)?;
+        let l = system.later(h, |system| system.lagrangian_derivatives(&q1, &end.v));
+        let second = Line::of(
+            &(l.d22 + at.turning * at_end.by_velocity),
+            &directions,
+            &at_end.by_velocity,
+            &at.sticks,
+        )?;
+        let half_impulse = at.turning * (at_end.by_configuration * half) + curvature(&at.forces);
+        let (mut half_slip, mut slip_by_q0) = (at_end.by_configuration * half, by_q0);
+        leave(&mut half_slip, &at.sticks);
+        leave(&mut slip_by_q0, &sticks);
+        let linearized = Self {
+            first,
+            impulse_by_q0,
+            slip_by_q0,
+            second,
+            half_impulse,
+            half_slip,
+            mass: l.d22,
+            momentum_by_q: l.d12.transpose(),
+        };
+        let q_by_p = linearized.first.solve(&SMatrix::identity(), &nalgebra::zero());
+        Ok((q_by_p, linearized))
+    }
+
+    /// The derivative of the end, from those of the start and of what moves momenta at fixed ends.
+    fn carried<const K: usize>(
+        &self,
+        k: &LegendreDerivatives<S, N>,
+        start: &StateBy<S, N, K>,
+        moved: &MomentaBy<S, N, K>,
+    ) -> Result<StateBy<S, N, K>, StepError> {
+        let right = start.p - (k.p0_by_q0 + self.impulse_by_q0) * start.q - moved.p0;
+        let q = self.first.solve(&right, &-(self.slip_by_q0 * start.q));
+        let both = start.q + q;
+        let w = k.p1_by_q0 * start.q + k.p1_by_q1 * q + moved.p1;
+        let right = w - self.momentum_by_q * q - self.half_impulse * both;
+        let v = self.second.solve(&right, &-(self.half_slip * both));
+        let p = self.mass * v + self.momentum_by_q * q;
+        StepError::require_finite(&q, Quantity::Derivatives)?;
+        StepError::require_finite(&p, Quantity::Derivatives)?;
+        Ok(StateBy { q, p })
+    }
+
+    pub(super) fn by_state(&self, k: &LegendreDerivatives<S, N>) -> Result<PhaseMatrix<S, N>, StepError> {
+        let (one, zero) = (SMatrix::identity(), SMatrix::zeros());
+        let still = MomentaBy { p0: zero, p1: zero };
+        let by_q = self.carried(k, &StateBy { q: one, p: zero }, &still)?;
+        let by_p = self.carried(k, &StateBy { q: zero, p: one }, &still)?;
+        Ok(PhaseMatrix { q_by_q: by_q.q, p_by_q: by_q.p, q_by_p: by_p.q, p_by_p: by_p.p })
+    }
+
+    pub(super) fn answer<const P: usize>(
+        &self,
+        k: &LegendreDerivatives<S, N>,
+        moved: &MomentaBy<S, N, P>,
+    ) -> Result<StateBy<S, N, P>, StepError> {
+        self.carried(k, &StateBy { q: nalgebra::zero(), p: nalgebra::zero() }, moved)
+    }
+}
