@@ -1,23 +1,38 @@
 //! R and f of a system, of which no trait says at compile time which it has.
 
+use core::marker::PhantomData;
+
 use nalgebra::SVector;
 
 use crate::numbers::{CovectorDerivatives, Derivatives, Gradient};
-use crate::system::{ActingForce, Force, Lagrangian, Rayleigh};
+use crate::system::{ActingForce, Force, Lagrangian, Rayleigh, SmoothRayleigh};
 
-/// A system by the parts of its force, whichever it has, `elapsed` from now.
-pub(super) struct Parts<'a, L: Lagrangian<N>, const N: usize> {
+/// A system by the parts of its force, whichever it has, `elapsed` from now; of R all of it, or `K` of it.
+pub(super) struct Parts<'a, L: Lagrangian<N>, K, const N: usize> {
     system: &'a L,
     elapsed: L::Scalar,
+    of_rayleigh: PhantomData<K>,
 }
 
-impl<'a, L: Lagrangian<N>, const N: usize> Parts<'a, L, N> {
+/// All of R.
+pub(super) struct Whole;
+
+/// R without its kinks.
+pub(super) struct Smooth;
+
+impl<'a, L: Lagrangian<N>, const N: usize> Parts<'a, L, Whole, N> {
     pub(super) fn of(system: &'a L) -> Self {
-        Self { system, elapsed: nalgebra::zero() }
+        Self { system, elapsed: nalgebra::zero(), of_rayleigh: PhantomData }
     }
 }
 
-impl<L: ActingForce<N>, const N: usize> Lagrangian<N> for Parts<'_, L, N> {
+impl<'a, L: Lagrangian<N>, const N: usize> Parts<'a, L, Smooth, N> {
+    pub(super) fn smooth(system: &'a L) -> Self {
+        Self { system, elapsed: nalgebra::zero(), of_rayleigh: PhantomData }
+    }
+}
+
+impl<L: Lagrangian<N>, K, const N: usize> Lagrangian<N> for Parts<'_, L, K, N> {
     type Scalar = L::Scalar;
 
     fn lagrangian(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> L::Scalar {
@@ -33,11 +48,11 @@ impl<L: ActingForce<N>, const N: usize> Lagrangian<N> for Parts<'_, L, N> {
     }
 
     fn later<T>(&self, elapsed: L::Scalar, evaluate: impl FnOnce(&Self) -> T) -> T {
-        evaluate(&Self { system: self.system, elapsed: self.elapsed + elapsed })
+        evaluate(&Self { system: self.system, elapsed: self.elapsed + elapsed, of_rayleigh: PhantomData })
     }
 }
 
-impl<L: ActingForce<N>, const N: usize> Rayleigh<N> for Parts<'_, L, N> {
+impl<L: ActingForce<N>, const N: usize> Rayleigh<N> for Parts<'_, L, Whole, N> {
     fn rayleigh(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> L::Scalar {
         self.rayleigh_gradient(q, v).value
     }
@@ -59,7 +74,21 @@ impl<L: ActingForce<N>, const N: usize> Rayleigh<N> for Parts<'_, L, N> {
     }
 }
 
-impl<L: ActingForce<N>, const N: usize> Force<N> for Parts<'_, L, N> {
+impl<L: SmoothRayleigh<N>, const N: usize> Rayleigh<N> for Parts<'_, L, Smooth, N> {
+    fn rayleigh(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> L::Scalar {
+        self.rayleigh_derivatives(q, v).value
+    }
+
+    fn rayleigh_derivatives(
+        &self,
+        q: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+    ) -> Derivatives<L::Scalar, N> {
+        self.system.later(self.elapsed, |system| system.smooth_rayleigh_derivatives(q, v))
+    }
+}
+
+impl<L: ActingForce<N>, const N: usize> Force<N> for Parts<'_, L, Whole, N> {
     fn force(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
         self.system.later(self.elapsed, |system| system.general_force(q, v))
     }

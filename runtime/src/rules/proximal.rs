@@ -1,13 +1,14 @@
 use nalgebra::SVector;
 
 use super::force_work::by_nodes;
+use super::parts::Parts;
 use super::{DisplacementRule, Midpoint};
-use crate::numbers::{CovectorDerivatives, Derivatives, Gradient};
+use crate::numbers::Derivatives;
 use crate::step::{
     ClosedForm, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteObjects, Fused,
     LinearizedSegment, Segment, SolvedForVelocity, StateBy, StepError,
 };
-use crate::system::{ActingForce, Driven, Lagrangian, SmoothRayleigh};
+use crate::system::{Driven, SmoothRayleigh};
 
 /// The midpoint rule with the kinks of R implicit at both ends of the step: dry friction that holds.
 ///
@@ -74,64 +75,6 @@ impl SolvedForVelocity for Proximal {}
 
 by_nodes!([] Proximal, of Midpoint);
 
-/// A system without the kinks of its R, `elapsed` from now.
-struct WithoutKinks<'a, L: Lagrangian<N>, const N: usize> {
-    system: &'a L,
-    elapsed: L::Scalar,
-}
-
-impl<'a, L: Lagrangian<N>, const N: usize> WithoutKinks<'a, L, N> {
-    fn of(system: &'a L) -> Self {
-        Self { system, elapsed: nalgebra::zero() }
-    }
-}
-
-impl<L: SmoothRayleigh<N>, const N: usize> Lagrangian<N> for WithoutKinks<'_, L, N> {
-    type Scalar = L::Scalar;
-
-    fn lagrangian(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> L::Scalar {
-        self.system.later(self.elapsed, |system| system.lagrangian(q, v))
-    }
-
-    fn lagrangian_derivatives(
-        &self,
-        q: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-    ) -> Derivatives<L::Scalar, N> {
-        self.system.later(self.elapsed, |system| system.lagrangian_derivatives(q, v))
-    }
-
-    fn later<T>(&self, elapsed: L::Scalar, evaluate: impl FnOnce(&Self) -> T) -> T {
-        evaluate(&Self { system: self.system, elapsed: self.elapsed + elapsed })
-    }
-}
-
-impl<L: SmoothRayleigh<N>, const N: usize> ActingForce<N> for WithoutKinks<'_, L, N> {
-    const HAS_RAYLEIGH: bool = L::HAS_SMOOTH;
-    const HAS_FORCE: bool = L::HAS_FORCE;
-    const IS_TIMED: bool = L::IS_TIMED;
-
-    fn dissipation(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> Gradient<L::Scalar, N> {
-        self.dissipation_derivatives(q, v).gradient()
-    }
-
-    fn dissipation_derivatives(
-        &self,
-        q: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-    ) -> Derivatives<L::Scalar, N> {
-        self.system.later(self.elapsed, |system| system.smooth_rayleigh_derivatives(q, v))
-    }
-
-    fn general_force_derivatives(
-        &self,
-        q: &SVector<L::Scalar, N>,
-        v: &SVector<L::Scalar, N>,
-    ) -> CovectorDerivatives<L::Scalar, N> {
-        self.system.later(self.elapsed, |system| system.general_force_derivatives(q, v))
-    }
-}
-
 /// L_d and f_d of the midpoint rule, without the kinks: their forces hold the motion beside f_d, as reactions
 /// of constraints do.
 impl<L, const N: usize> ClosedForm<Proximal, N> for L
@@ -147,14 +90,28 @@ where
     }
 
     fn discrete_force(&self, segment: &Segment<L::Scalar, N>) -> DiscreteForce<L::Scalar, N> {
-        Midpoint::discrete_force(&WithoutKinks::of(self), segment)
+        let mut force = DiscreteForce::zero();
+        if L::HAS_SMOOTH {
+            force = force + Midpoint::rayleigh_force(&Parts::smooth(self), segment);
+        }
+        if L::HAS_FORCE {
+            force = force + Midpoint::general_force(&Parts::of(self), segment);
+        }
+        force
     }
 
     fn discrete_force_derivatives(
         &self,
         segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForceDerivatives<L::Scalar, N> {
-        Midpoint::discrete_force_derivatives(&WithoutKinks::of(self), segment)
+        let mut force = DiscreteForceDerivatives::zero();
+        if L::HAS_SMOOTH {
+            force = force + Midpoint::rayleigh_force_derivatives(&Parts::smooth(self), segment);
+        }
+        if L::HAS_FORCE {
+            force = force + Midpoint::general_force_derivatives(&Parts::of(self), segment);
+        }
+        force
     }
 
     fn segment_energy(&self, segment: &Segment<L::Scalar, N>) -> L::Scalar {

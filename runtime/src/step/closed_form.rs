@@ -151,7 +151,10 @@ where
     ) -> Result<EquationAt<L::Scalar, N>, StepError> {
         const {
             assert!(!L::IS_CONSTRAINED, "steps on constraints have no certificate");
-            assert!(L::STRUCTURE.kinks == 0, "steps with kinks of R have no certificate");
+            assert!(
+                !L::STRUCTURE.is_held_by_friction(),
+                "steps with friction that holds have no certificate"
+            );
         }
         let segment = Segment { q0: state.q, v: step.velocity, h };
         let kernel = self.step_kernel(&segment);

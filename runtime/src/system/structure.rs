@@ -152,6 +152,12 @@ impl Structure {
         None
     }
 
+    /// Whether friction holds the system at kinks of R beside L_d and f_d: it is stepped by
+    /// [`Proximal`](crate::Proximal).
+    pub(crate) const fn is_held_by_friction(&self) -> bool {
+        self.kinks > 0 && self.newton_matrix("Proximal").is_some()
+    }
+
     /// This structure, with derivatives by `engine`.
     #[must_use]
     pub const fn with_engine(self, engine: Engine) -> Self {

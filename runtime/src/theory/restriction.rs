@@ -21,7 +21,7 @@ impl<L: Lagrangian<N>, R, const N: usize> Discretised<'_, L, R, N> {
             "constraints of velocity leave a step without a discrete Lagrangian, which this checker asks: of such \
              systems ask `dissipation` and `ledger`"
         );
-        Self::require_no_kinks();
+        Self::require_no_friction();
     }
 
     /// Refuses constraints.
@@ -51,14 +51,14 @@ impl<L: Lagrangian<N>, R, const N: usize> Discretised<'_, L, R, N> {
             "this checker asks systems without constraints: on holonomic ones ask `noether`, `rayleigh_step` and \
              `rayleigh_structure`, on any `dissipation` and `ledger`"
         );
-        Self::require_no_kinks();
+        Self::require_no_friction();
     }
 
-    /// Refuses kinks of R, where friction holds beside L_d and f_d.
-    const fn require_no_kinks() {
+    /// Refuses friction that holds beside L_d and f_d.
+    const fn require_no_friction() {
         assert!(
-            L::STRUCTURE.kinks == 0,
-            "where R has kinks a step is not one of L_d and f_d alone: of such systems ask `dissipation` and `ledger`"
+            !L::STRUCTURE.is_held_by_friction(),
+            "by `rule = proximal` a step is not one of L_d and f_d alone: of such systems ask `dissipation` and `ledger`"
         );
     }
 }

@@ -31,6 +31,7 @@ impl Many {
         sum
     }
 
+    #[allow(clippy::needless_range_loop, reason = "indices as in the formula")]
     fn rayleigh(&self, v: [f64; 4]) -> f64 {
         let mut u = [0.0; 5];
         for k in 0..5 {
