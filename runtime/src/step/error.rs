@@ -120,7 +120,8 @@ pub enum StepError {
         limit: f64,
     },
     /// The objective of a step with friction is not convex: friction falls with the velocity faster than a
-    /// step of this length can follow, h max|F′| ≥ 2m.
+    /// step of this length can follow, h max|F′| ≥ 2m; or the step is one back in time, along which friction
+    /// pushes.
     NotConvex {
         /// The component of the kinks of R, from 0 in the order of R.
         component: usize,

@@ -76,7 +76,7 @@ pub(super) fn direction_of<S: Scalar, const N: usize, const M: usize>(
     slips: &Slips<S, N, M>,
     h: S,
 ) -> Result<SMatrix<S, N, M>, StepError> {
-    let impulse = h.abs() * S::constant(0.5);
+    let impulse = h * S::constant(0.5);
     let mut directions = slips.by_velocity.transpose();
     let limits = slips.limits.as_slice().iter();
     for (component, (column, limit)) in directions.data.0.iter_mut().zip(limits).enumerate() {
@@ -171,6 +171,8 @@ where
     /// A part of h from which on the objective is convex, at the velocity at which it was not.
     #[cold]
     fn convex_from(&self, h: f64) -> f64 {
+        // Back in time friction pushes.
+        let h = h.abs();
         let v = self.at.get();
         let mut part = h;
         for _ in 0..HALVINGS {

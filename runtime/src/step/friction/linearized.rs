@@ -173,7 +173,7 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
                 return nalgebra::zero();
             }
             let middle = segment.q0 + segment.v * (h * half);
-            system.later(h * half, |system| system.slip_curvature(&middle, forces)) * (h.abs() * half * half)
+            system.later(h * half, |system| system.slip_curvature(&middle, forces)) * (h * half * half)
         };
         let bent: SMatrix<S, N, N> = curvature(&at.forces);
         let first = Line::of(&(matrix + bent), &directions, &by_q1, &at.sticks)?;

@@ -35,6 +35,15 @@ fn a_force_at_its_limit_has_no_derivative() {
 }
 
 #[test]
+fn friction_has_no_step_back_in_time() {
+    let still = State { q: vector![0.0, 0.0], p: vector![0.3, 0.0] };
+    let by = Pushed { mu: 0.2 }.by(Proximal, -0.1);
+    let error = by.step(&still).unwrap_err();
+    assert!(matches!(error, StepError::NotConvex { h: -0.1, enough: 0.05, .. }), "{error}");
+    assert!(by.with_step(0.05).step(&still).is_ok());
+}
+
+#[test]
 fn a_factor_that_is_no_number_is_an_error() {
     let still = State { q: vector![0.0, 0.0], p: vector![0.0, 0.0] };
     assert!(Pushed { mu: f64::NAN }.by(Proximal, 0.1).step(&still).is_err());
