@@ -34,7 +34,10 @@ typedef enum dalembert_status {
     DALEMBERT_NO_DERIVATIVE_OF_R = 21, /**< R has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in R; or a parameter or the input is too large */
     DALEMBERT_NO_DERIVATIVE_OF_F = 22, /**< f has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in f; or a parameter or the input is too large */
     DALEMBERT_OVERFLOW = 23, /**< the step leads from a finite state to one that is NaN or infinite: look at parameters and input; if they are finite, try a smaller step */
-    DALEMBERT_SINGULAR_COORDINATES = 24 /**< the coordinates are singular at this configuration, as at a pole of spherical ones or in gimbal lock: start away from it, or take other coordinates */
+    DALEMBERT_SINGULAR_COORDINATES = 24, /**< the coordinates are singular at this configuration, as at a pole of spherical ones or in gimbal lock: start away from it, or take other coordinates */
+    DALEMBERT_NEGATIVE_FRICTION = 30, /**< the factor of a kink of R is negative, so that friction would push: look at the parameters */
+    DALEMBERT_NOT_CONVEX = 31, /**< friction falls with the velocity faster than a step of this size can follow: try a smaller step */
+    DALEMBERT_AT_LIMIT_OF_FRICTION = 32 /**< friction holds at its limit, so that the step has no derivative there: ask at another state */
 } dalembert_status;
 
 /** How a step went. */
