@@ -201,8 +201,11 @@ where
         let sliding = match Sliding::of(&slips, (half, segment.h), factored) {
             Ok(sliding) => sliding,
             Err(error) => {
-                self.error.set(Some(error));
-                self.at.set(segment.v);
+                // The first is that of the step size asked for.
+                if self.error.get().is_none() {
+                    self.error.set(Some(error));
+                    self.at.set(segment.v);
+                }
                 return None;
             }
         };
@@ -240,8 +243,9 @@ where
         let StepKernel { p0, matrix } = self.free.kernel(segment);
         let factored = matrix.factored();
         let residual = factored.as_ref().and_then(|factored| self.residual(segment, factored, &p0));
+        // Without friction's share there is no equation, nor a correction.
         if let Ok(mut last) = self.last.try_borrow_mut() {
-            *last = factored;
+            *last = factored.filter(|_| residual.is_some());
         }
         match residual {
             Some(residual) => StepKernel { p0: self.state.p + residual, matrix },
@@ -273,7 +277,9 @@ where
                 .factored()
                 .and_then(|factored| self.residual(segment, &factored, &p0))
         };
-        Momenta { p0: residual.map_or(p0, |residual| self.state.p + residual), p1 }
+        // No number where friction has no solution: that is no root.
+        let unknown = || SVector::repeat(L::Scalar::constant(f64::NAN));
+        Momenta { p0: residual.map_or_else(unknown, |residual| self.state.p + residual), p1 }
     }
 
     fn correction(&self, residual: &SVector<L::Scalar, N>) -> Option<SVector<L::Scalar, N>> {
