@@ -74,17 +74,25 @@ impl<L: ActingForce<N>, const N: usize> Rayleigh<N> for Parts<'_, L, Whole, N> {
     }
 }
 
-impl<L: SmoothRayleigh<N>, const N: usize> Rayleigh<N> for Parts<'_, L, Smooth, N> {
-    fn rayleigh(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> L::Scalar {
-        self.rayleigh_derivatives(q, v).value
-    }
+impl<L: SmoothRayleigh<N>, const N: usize> ActingForce<N> for Parts<'_, L, Smooth, N> {
+    const HAS_RAYLEIGH: bool = L::HAS_SMOOTH;
+    const HAS_FORCE: bool = L::HAS_FORCE;
+    const IS_TIMED: bool = L::IS_TIMED;
 
-    fn rayleigh_derivatives(
+    fn dissipation_derivatives(
         &self,
         q: &SVector<L::Scalar, N>,
         v: &SVector<L::Scalar, N>,
     ) -> Derivatives<L::Scalar, N> {
         self.system.later(self.elapsed, |system| system.smooth_rayleigh_derivatives(q, v))
+    }
+
+    fn general_force_derivatives(
+        &self,
+        q: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+    ) -> CovectorDerivatives<L::Scalar, N> {
+        self.system.later(self.elapsed, |system| system.general_force_derivatives(q, v))
     }
 }
 

@@ -1,12 +1,12 @@
 use nalgebra::SVector;
 
-use super::force_work::by_nodes;
+use super::force_work::along_the_line;
 use super::parts::Parts;
 use super::{DisplacementRule, Midpoint};
 use crate::numbers::Derivatives;
 use crate::step::{
-    ClosedForm, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteObjects, Fused,
-    LinearizedSegment, Segment, SolvedForVelocity, StateBy, StepError,
+    ClosedForm, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteObjects, EnergyExchange,
+    ForceWork, Fused, LinearizedSegment, Momenta, Segment, SolvedForVelocity, State, StateBy, StepError,
 };
 use crate::system::{Driven, SmoothRayleigh};
 
@@ -73,8 +73,6 @@ pub struct Proximal;
 
 impl SolvedForVelocity for Proximal {}
 
-by_nodes!([] Proximal, of Midpoint);
-
 /// L_d and f_d of the midpoint rule, without the kinks: their forces hold the motion beside f_d, as reactions
 /// of constraints do.
 impl<L, const N: usize> ClosedForm<Proximal, N> for L
@@ -90,28 +88,14 @@ where
     }
 
     fn discrete_force(&self, segment: &Segment<L::Scalar, N>) -> DiscreteForce<L::Scalar, N> {
-        let mut force = DiscreteForce::zero();
-        if L::HAS_SMOOTH {
-            force = force + Midpoint::rayleigh_force(&Parts::smooth(self), segment);
-        }
-        if L::HAS_FORCE {
-            force = force + Midpoint::general_force(&Parts::of(self), segment);
-        }
-        force
+        Midpoint::discrete_force(&Parts::smooth(self), segment)
     }
 
     fn discrete_force_derivatives(
         &self,
         segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForceDerivatives<L::Scalar, N> {
-        let mut force = DiscreteForceDerivatives::zero();
-        if L::HAS_SMOOTH {
-            force = force + Midpoint::rayleigh_force_derivatives(&Parts::smooth(self), segment);
-        }
-        if L::HAS_FORCE {
-            force = force + Midpoint::general_force_derivatives(&Parts::of(self), segment);
-        }
-        force
+        Midpoint::discrete_force_derivatives(&Parts::smooth(self), segment)
     }
 
     fn segment_energy(&self, segment: &Segment<L::Scalar, N>) -> L::Scalar {
@@ -124,6 +108,25 @@ where
         visit: &mut dyn FnMut(&Self, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>),
     ) {
         Midpoint::at_nodes(self, segment, visit);
+    }
+}
+
+/// Friction takes v̄·(D s + D s1), with its impulses as the momenta tell them: none is asked for at a kink.
+impl<L, const N: usize> ForceWork<Proximal, N> for L
+where
+    L: Fused<Proximal, N> + SmoothRayleigh<N>,
+{
+    fn energy_exchange(
+        &self,
+        from: &State<L::Scalar, N>,
+        to: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<EnergyExchange<L::Scalar>, StepError> {
+        let segment = Segment { q0: from.q, v: (to.q - from.q) / h, h };
+        let Momenta { p0, p1 } = self.momenta(&segment);
+        let dissipated = segment.v.dot(&(from.p - p0 + p1 - to.p));
+        let smooth = along_the_line::<Midpoint, _, N>(&Parts::smooth(self), from, to, h);
+        Ok(smooth + EnergyExchange { dissipated, work: nalgebra::zero() })
     }
 }
 

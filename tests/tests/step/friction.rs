@@ -185,6 +185,62 @@ fn one_friction_written_in_several_ways_is_one_motion() {
     }
 }
 
+/// A puck on a table that is rougher to one side, held by a spring.
+struct Puck {
+    mu: f64,
+    k: f64,
+}
+
+#[rayleigh_system(rule = proximal)]
+impl Puck {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - 0.5 * self.k * (q[0] * q[0] + q[1] * q[1])
+    }
+
+    fn rayleigh(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        self.mu * (1.0 + 0.5 * q[0].sin()) * v[0].hypot(v[1])
+    }
+}
+
+/// The length of a velocity has no gradient at rest: nothing asks for one there.
+#[test]
+fn a_length_is_held_from_rest_and_to_rest() {
+    let puck = Puck { mu: 0.3, k: 1.0 };
+    let still = State::from_velocity(&puck, [0.1, -0.1], [0.0; 2]).unwrap();
+    let mut run = puck.by(Proximal, 0.05).run(still);
+    assert!((0..100).all(|_| run.next().unwrap().unwrap().state == still));
+
+    let start = State::from_velocity(&puck, [0.6, 0.2], [0.3, -0.5]).unwrap();
+    let by = puck.by(Proximal, 0.01);
+    let (mut before, mut at_rest) = (start, 0);
+    for step in by.run(start).take(1000) {
+        let step = step.unwrap();
+        let entry = by.ledger(&before, &step.state).unwrap();
+        assert!(entry.dissipated >= 0.0 && entry.dissipated.is_finite(), "{entry:?}");
+        at_rest += usize::from(step.state == before && step.velocity == Vector2::zeros());
+        before = step.state;
+    }
+    assert!(at_rest > 300, "{at_rest}");
+}
+
+/// By steps of h, h/2 and h/4 along one direction, from which the friction depends on q.
+#[test]
+fn sliding_over_ground_that_is_rougher_on_the_way_is_of_order_two() {
+    let puck = Puck { mu: 0.3, k: 0.2 };
+    let start = State::from_velocity(&puck, [-0.5, 0.0], [1.5, 0.0]).unwrap();
+    let ends = [20, 40, 80].map(|steps: u32| {
+        let mut run = puck.by(Proximal, 1.0 / f64::from(steps)).run(start);
+        run.nth(steps as usize - 1).unwrap().unwrap().state
+    });
+    let order_of = |of: fn(&State<f64, 2>) -> f64| {
+        let [a, b, c] = ends.map(|end| of(&end));
+        ((a - b) / (b - c)).log2()
+    };
+    for order in [order_of(|state| state.q[0]), order_of(|state| state.p[0])] {
+        assert!((order - 2.0).abs() < 0.05, "{order}");
+    }
+}
+
 /// Friction that falls with the velocity, from 0.3 to 0.1, and one that is no kink.
 #[derive(Clone, Copy)]
 struct Stribeck {
