@@ -44,7 +44,7 @@ pub fn engine(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Dec
 /// hold the system: dual numbers have none of them.
 fn asks_for_code(system: &System<'_>) -> bool {
     let is_asked = !system.parameters.is_empty() || system.lanes.words().next().is_some();
-    is_asked || system.fused.is_some() || system.is_constrained() || kinks::are_asked(system)
+    is_asked || system.fused.is_some() || system.is_constrained() || system.rules.proximal.is_some()
 }
 
 /// `derivatives = auto`: written out where they can be.

@@ -119,7 +119,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered) -> Result<Derived, Refus
     functions.extend(deriving.all_by_parameters()?);
     functions.extend(deriving.all_along()?);
     let kinks = deriving.find_kinks();
-    if !kinks.sizes.is_empty() && system.rules.of_displacement.contains(&Rule::Proximal) {
+    if kinks.components() > 0 && system.rules.proximal.is_some() {
         functions.extend(deriving.kinks(&kinks)?);
     }
     let findings = deriving.findings(&kinks);
@@ -188,7 +188,7 @@ impl Deriving<'_> {
         let components = self.force.unwrap_or_default();
         let force: Vec<_> = components.iter().copied().zip(self.rows(components)).collect();
         let (rayleigh, smooth) = (rayleigh.as_ref(), smooth.as_ref());
-        let kinks = kinks.sizes.len();
+        let kinks = kinks.sizes().len();
         let terms = Terms { lagrangian: &lagrangian, rayleigh, smooth, kinks, force: &force };
         structure::findings(&self.graph, self.system, self.n, &terms)
     }

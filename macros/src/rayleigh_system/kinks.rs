@@ -4,7 +4,6 @@ use super::derived::{Derived, Fault};
 use super::diagnostics::{Mistake, Report};
 use super::model::{Engine, System};
 use super::parts::Part;
-use super::rules::Rule;
 
 /// Reports what the attribute asks for and steps with kinks do not have.
 pub fn check(system: &System<'_>, report: &mut Report) {
@@ -29,7 +28,7 @@ pub fn check_derived(system: &System<'_>, derived: &Derived, report: &mut Report
     let Some(word) = &system.rules.proximal else { return };
     let at = system.source.functions().find(|function| function.sig.ident == Part::Rayleigh.name());
     let at = at.map_or(word, |function| &function.sig.ident);
-    if derived.kinks.sizes.is_empty() {
+    if derived.kinks.components() == 0 {
         let lacks =
             "holds by kinks of R such as `v[0].abs()`, and this R has none; use `midpoint`, which it is then";
         report.at(word, Mistake::Kinks { lacks });
@@ -51,9 +50,4 @@ pub fn check_derived(system: &System<'_>, derived: &Derived, report: &mut Report
         };
         report.at(at, Mistake::Kink { fault });
     }
-}
-
-/// Whether a rule that takes kinks apart is listed.
-pub fn are_asked(system: &System<'_>) -> bool {
-    system.rules.of_displacement.contains(&Rule::Proximal)
 }

@@ -53,6 +53,7 @@ pub trait Border<L: Lagrangian<N> + ?Sized, R, const N: usize> {
 
     /// The residual p0 − p of the equation with its border on a segment, where `momenta` are those without,
     /// and then those with it; the correction of v̄ is what the matrix makes of it.
+    #[inline]
     fn residual(
         underway: &Self::Underway,
         system: &L,
@@ -60,23 +61,38 @@ pub trait Border<L: Lagrangian<N> + ?Sized, R, const N: usize> {
         factored: &impl Factored<L::Scalar, N>,
         p: &SVector<L::Scalar, N>,
         momenta: &mut Momenta<L::Scalar, N>,
-    ) -> SVector<L::Scalar, N>;
+    ) -> SVector<L::Scalar, N> {
+        let _ = (underway, system, segment, factored);
+        momenta.p0 - p
+    }
 
     /// The floor of a residual with what reactions add to it, where p0 is `without` and `with` them.
+    #[inline]
     fn floor(
         floor: SVector<L::Scalar, N>,
         without: &SVector<L::Scalar, N>,
         with: &SVector<L::Scalar, N>,
-    ) -> SVector<L::Scalar, N>;
+    ) -> SVector<L::Scalar, N> {
+        let _ = (without, with);
+        floor
+    }
 
     /// Whether the border is off on a segment by more than rounding, which the residual may not show.
-    fn is_off(underway: &Self::Underway, system: &L, segment: &Segment<L::Scalar, N>) -> bool;
+    #[inline]
+    fn is_off(underway: &Self::Underway, system: &L, segment: &Segment<L::Scalar, N>) -> bool {
+        let _ = (underway, system, segment);
+        false
+    }
 
     /// The step that was solved for, complete; nothing where the general way has to say why.
     fn completed(system: &L, step: Step<L::Scalar, N>, h: L::Scalar) -> Option<Step<L::Scalar, N>>;
 
     /// The state that the border allows and that is nearest; nothing where there is none in reach.
-    fn nearest(system: &L, state: &State<L::Scalar, N>) -> Option<State<L::Scalar, N>>;
+    #[inline]
+    fn nearest(system: &L, state: &State<L::Scalar, N>) -> Option<State<L::Scalar, N>> {
+        let _ = system;
+        Some(*state)
+    }
 
     /// ∂q1/∂p0 at fixed q0, and the border's share of the equations on the `segment` of a step, where its
     /// momenta have the derivatives `k`; from the momentum `p0`, if it is a step that was taken.

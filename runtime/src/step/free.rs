@@ -5,8 +5,8 @@ use nalgebra::{SMatrix, SVector};
 use crate::numbers::Factored;
 use crate::step::equation::OfRule;
 use crate::step::{
-    Border, BorderParameters, BoundedStep, ClosedForm, Discrete, LegendreDerivatives, Momenta, MomentaBy,
-    PhaseMatrix, Segment, State, StateBy, Step, StepError, invert, step_by, step_within_by,
+    Border, BorderParameters, BoundedStep, ClosedForm, Discrete, LegendreDerivatives, MomentaBy, PhaseMatrix,
+    Segment, State, StateBy, Step, StepError, invert, step_by, step_within_by,
 };
 
 /// No border: a system without constraints.
@@ -47,39 +47,8 @@ where
     }
 
     #[inline]
-    fn residual(
-        (): &(),
-        _: &L,
-        _: &Segment<L::Scalar, N>,
-        _: &impl Factored<L::Scalar, N>,
-        p: &SVector<L::Scalar, N>,
-        momenta: &mut Momenta<L::Scalar, N>,
-    ) -> SVector<L::Scalar, N> {
-        momenta.p0 - p
-    }
-
-    #[inline]
-    fn floor(
-        floor: SVector<L::Scalar, N>,
-        _: &SVector<L::Scalar, N>,
-        _: &SVector<L::Scalar, N>,
-    ) -> SVector<L::Scalar, N> {
-        floor
-    }
-
-    #[inline]
-    fn is_off((): &(), _: &L, _: &Segment<L::Scalar, N>) -> bool {
-        false
-    }
-
-    #[inline]
     fn completed(_: &L, step: Step<L::Scalar, N>, _: L::Scalar) -> Option<Step<L::Scalar, N>> {
         Some(step)
-    }
-
-    #[inline]
-    fn nearest(_: &L, state: &State<L::Scalar, N>) -> Option<State<L::Scalar, N>> {
-        Some(*state)
     }
 
     fn linearized(

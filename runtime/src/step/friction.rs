@@ -107,35 +107,8 @@ where
         None
     }
 
-    fn residual(
-        (): &(),
-        _: &L,
-        _: &Segment<L::Scalar, N>,
-        _: &impl Factored<L::Scalar, N>,
-        p: &SVector<L::Scalar, N>,
-        momenta: &mut Momenta<L::Scalar, N>,
-    ) -> SVector<L::Scalar, N> {
-        momenta.p0 - p
-    }
-
-    fn floor(
-        floor: SVector<L::Scalar, N>,
-        _: &SVector<L::Scalar, N>,
-        _: &SVector<L::Scalar, N>,
-    ) -> SVector<L::Scalar, N> {
-        floor
-    }
-
-    fn is_off((): &(), _: &L, _: &Segment<L::Scalar, N>) -> bool {
-        false
-    }
-
     fn completed(_: &L, _: Step<L::Scalar, N>, _: L::Scalar) -> Option<Step<L::Scalar, N>> {
         None
-    }
-
-    fn nearest(_: &L, state: &State<L::Scalar, N>) -> Option<State<L::Scalar, N>> {
-        Some(*state)
     }
 
     fn linearized(

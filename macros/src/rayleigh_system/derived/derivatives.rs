@@ -12,18 +12,24 @@ impl Deriving<'_> {
         let outputs = [vec![root], self.covector(&first, false), self.covector(&first, true)];
         let mut functions = vec![self.made(Of::Gradient(part), home, &outputs.concat())?];
 
+        functions.push(self.derivatives(Of::Derivatives(part), home, root, symbol)?);
+
+        if part == Part::Lagrangian && self.system.rules.ask_for_variations() {
+            functions.push(self.variations(&second)?);
+        }
+        Ok(functions)
+    }
+
+    /// `root` with its first and second derivatives.
+    pub(super) fn derivatives(&mut self, of: Of, home: Home, root: Node, symbol: &str) -> Made<Routine> {
+        let second = self.derivation.hessian(&mut self.graph, root, symbol);
         let outputs = [
             vec![root],
             self.covector(&second.gradient, false),
             self.covector(&second.gradient, true),
             self.blocks(&second),
         ];
-        functions.push(self.made(Of::Derivatives(part), home, &outputs.concat())?);
-
-        if part == Part::Lagrangian && self.system.rules.ask_for_variations() {
-            functions.push(self.variations(&second)?);
-        }
-        Ok(functions)
+        self.made(of, home, &outputs.concat())
     }
 
     /// Derivatives of f.

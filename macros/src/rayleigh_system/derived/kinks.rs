@@ -15,8 +15,6 @@ use super::*;
 /// The kinks of R.
 #[derive(Default)]
 pub struct Kinks {
-    /// How many components each element has.
-    pub sizes: Vec<usize>,
     /// Whether slips and limits hold no coordinate.
     pub is_uniform: bool,
     /// Whether R holds each |u| with a factor, and not in another function.
@@ -29,9 +27,14 @@ pub struct Kinks {
 }
 
 impl Kinks {
+    /// How many components each element has.
+    pub fn sizes(&self) -> Vec<usize> {
+        self.elements.iter().map(|element| element.slip.len()).collect()
+    }
+
     /// The number of all components.
     pub fn components(&self) -> usize {
-        self.sizes.iter().sum()
+        self.sizes().iter().sum()
     }
 }
 
@@ -127,7 +130,6 @@ impl Deriving<'_> {
             if !self.is_linear_in_velocity(&candidate.slip) {
                 kinks.faults.push(Fault::NotLinear);
             }
-            kinks.sizes.push(candidate.slip.len());
             kinks.elements.push(Element { limit, slip: candidate.slip.clone() });
         }
         kinks.smooth = (self.graph.constant_value(smooth).is_none()).then_some(smooth);
@@ -145,14 +147,7 @@ impl Deriving<'_> {
             functions.push(self.slip_curvature(kinks)?);
         }
         if let Some(root) = kinks.smooth {
-            let second = self.derivation.hessian(&mut self.graph, root, "r");
-            let outputs = [
-                vec![root],
-                self.covector(&second.gradient, false),
-                self.covector(&second.gradient, true),
-                self.blocks(&second),
-            ];
-            functions.push(self.made(Of::SmoothRayleigh, self.system.home(), &outputs.concat())?);
+            functions.push(self.derivatives(Of::SmoothRayleigh, self.system.home(), root, "r")?);
         }
         Ok(functions)
     }
@@ -207,10 +202,18 @@ impl Deriving<'_> {
     fn candidates(&mut self, root: Node) -> Vec<Candidate> {
         let mut found: Vec<Candidate> = Vec::new();
         for node in self.graph.reachable([root]) {
-            if !self.reads_velocity(node) {
+            let operation = self.graph.operation(node);
+            let has_kink = matches!(
+                operation,
+                Operation::Function(Function::Abs | Function::Sqrt, _)
+                    | Operation::Pair(PairFunction::Hypot, ..)
+                    | Operation::Select(..)
+            );
+            // What is below is looked at for these alone.
+            if !has_kink || !self.reads_velocity(node) {
                 continue;
             }
-            let candidate = match self.graph.operation(node) {
+            let candidate = match operation {
                 Operation::Function(Function::Abs, x) => Some((vec![x], Extremum::Length)),
                 Operation::Pair(PairFunction::Hypot, a, b) => {
                     self.sides(a, b).map(|sides| (sides, Extremum::Length))

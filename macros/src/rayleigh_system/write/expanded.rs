@@ -77,10 +77,9 @@ fn functions(system: &System<'_>, derived: Derived, is_portable: bool) -> Engine
     });
     let constraints = constraints.map(|functions| (functions, derived.constraints.is_prescribed));
     let friction = text.functions_of(|of| matches!(of, Of::Slips | Of::SlipCurvature)).map(|functions| {
-        let Kinks { ref sizes, is_uniform, is_proportional, .. } = derived.kinks;
-        let sizes = sizes.clone();
+        let kinks @ &Kinks { is_uniform, is_proportional, .. } = &derived.kinks;
         Friction {
-            sizes,
+            sizes: kinks.sizes(),
             is_uniform,
             is_proportional,
             functions,

@@ -176,7 +176,8 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
             system.later(h * half, |system| system.slip_curvature(&middle, forces)) * (h * half * half)
         };
         let bent: SMatrix<S, N, N> = curvature(&at.forces);
-        let first = Line::of(&(matrix + bent), &directions, &by_q1, &at.sticks)?;
+        let first =
+            if L::IS_UNIFORM { first } else { Line::of(&(matrix + bent), &directions, &by_q1, &at.sticks)? };
         let impulse_by_q0 = at.turning * by_q0 + bent;
         let sticks = at.sticks;
 

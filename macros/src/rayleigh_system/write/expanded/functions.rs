@@ -30,13 +30,16 @@ impl Text<'_> {
                 let name = format!("{}_gradient", part.name());
                 (inlined(statements), name, quote!(Gradient<#scalar, #n>), result)
             }
-            Of::Derivatives(part) => {
+            Of::Derivatives(_) | Of::SmoothRayleigh => {
                 let [value, d1, d2, d11, d12, d22] =
                     self.parts(outputs, [Scalar, Vector, Vector, Matrix, Matrix, Matrix]);
                 let result = quote! {
                     Derivatives { value: #value, d1: #d1, d2: #d2, d11: #d11, d12: #d12, d22: #d22 }
                 };
-                let name = format!("{}_derivatives", part.name());
+                let name = match function.of {
+                    Of::Derivatives(part) => format!("{}_derivatives", part.name()),
+                    _ => "smooth_rayleigh_derivatives".to_owned(),
+                };
                 (inlined(statements), name, quote!(Derivatives<#scalar, #n>), result)
             }
             Of::Variations => {
@@ -117,15 +120,6 @@ impl Text<'_> {
             Of::SlipCurvature => {
                 let ty = quote!(SMatrix<#scalar, #n, #n>);
                 (None, "slip_curvature".to_owned(), ty, matrix(outputs, self.derived.n))
-            }
-            Of::SmoothRayleigh => {
-                let [value, d1, d2, d11, d12, d22] =
-                    self.parts(outputs, [Scalar, Vector, Vector, Matrix, Matrix, Matrix]);
-                let result = quote! {
-                    Derivatives { value: #value, d1: #d1, d2: #d2, d11: #d11, d12: #d12, d22: #d22 }
-                };
-                let ty = quote!(Derivatives<#scalar, #n>);
-                (inlined(statements), "smooth_rayleigh_derivatives".to_owned(), ty, result)
             }
             Of::ForceByInput => {
                 let ty = quote!(SMatrix<#scalar, #n, #m>);
