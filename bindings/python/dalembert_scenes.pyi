@@ -14,7 +14,7 @@ type _Numbers = Sequence[float] | Sequence[Sequence[float]] | npt.NDArray[np.flo
 
 @final
 class Breach:
-    """Where the error expected of a run has passed the one asked for."""
+    """Where the error expected of a run has passed the tolerance."""
 
     @property
     def t(self) -> float:
@@ -24,7 +24,7 @@ class Breach:
         """The error expected of the state there."""
     @property
     def tolerance(self) -> float:
-        """The error asked for."""
+        """The tolerance."""
     @property
     def instead(self) -> float:
         """A tolerance to ask for instead, from the start."""
@@ -171,13 +171,13 @@ class Run:
         """The step size."""
     @property
     def rule(self) -> str:
-        """The rule, or the method chosen for the error asked for."""
+        """The rule, or the method chosen for the tolerance."""
     @property
     def expected(self) -> float | None:
-        """The error expected at the end of a run to an error asked for; None of others."""
+        """The error expected at the end of a run to a tolerance; None of others."""
     @property
     def breach(self) -> Breach | None:
-        """Where the error expected has passed the one asked for; None where it has not."""
+        """Where the error expected has passed the tolerance; None where it has not."""
     @property
     def events(self) -> list[Crossings]:
         """The events of each function that was given."""
@@ -277,13 +277,13 @@ class StepError(ArithmeticError):
     partial: dict[str, _Array] | None
 
 class ToleranceError(ArithmeticError):
-    """No method was chosen for the error asked for: the message says why."""
+    """No method was chosen for the tolerance: the message says why."""
 
 class EventError(ArithmeticError):
     """An event function that cannot be followed: the message says which and when."""
 
 class BreachWarning(UserWarning):
-    """The error expected has passed the one asked for: `run.breach` says where."""
+    """The error expected has passed the tolerance: `run.breach` says where."""
 
 @disjoint_base
 class System:

@@ -70,7 +70,7 @@ pub struct End<S, const N: usize> {
 pub enum MemberError {
     /// A step failed, or the making of the start.
     Step(StepError),
-    /// No method was chosen for the error asked for, or no run that was tried keeps it.
+    /// No method was chosen for the tolerance, or no run that was tried keeps it.
     Tolerance(ToleranceError),
     /// Its events cannot be followed.
     Event(EventError),

@@ -229,7 +229,7 @@ impl<S: Scalar> Plan<S> {
     }
 }
 
-/// Each member to an error asked for, by the method and step size that keep it
+/// Each member to a tolerance, by the method and step size that keep it
 /// ([`TimedRequest::end`](dalembert::tolerance::TimedRequest::end)).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToError {

@@ -1,4 +1,28 @@
-//! The figures of the scene `ring` against computations that share no code with it.
+//! The figures of the scene `ring` against computations that share no code with it; and what the README says
+//! that its program prints.
+
+use std::cell::RefCell;
+
+thread_local! {
+    /// What the program has printed.
+    static PRINTED: RefCell<String> = const { RefCell::new(String::new()) };
+}
+
+/// The program's `println!`.
+macro_rules! println {
+    ($($text:tt)*) => {{
+        let line = format!($($text)*);
+        crate::PRINTED.with_borrow_mut(|printed| *printed += &(line + "\n"));
+    }};
+}
+
+mod readme {
+    include!("../examples/readme/program.rs");
+
+    pub fn run() -> Result<(), dalembert::StepError> {
+        main()
+    }
+}
 
 #[path = "../examples/ring.rs"]
 #[expect(dead_code, reason = "of the scene, what it computes is tested here, not what it prints")]
@@ -8,6 +32,24 @@ use dalembert_examples::baseline::Method;
 use indicatif::ProgressBar;
 use ring::{H, Motion, Ring, STEPS, start};
 
+/// A block of the README between fences of that kind: the first from `from` on.
+fn block<'a>(page: &'a str, from: &str, fence: &str) -> &'a str {
+    let text = &page[page.find(from).unwrap()..];
+    text.split_once(fence).unwrap().1.split_once("```").unwrap().0
+}
+
+#[test]
+fn the_readme_has_the_program_and_what_it_prints() {
+    let page = include_str!("../../README.md");
+    assert_eq!(block(page, "```rust", "```rust\n"), include_str!("../examples/readme/program.rs"));
+    readme::run().unwrap();
+    let printed = PRINTED.take();
+    let said = block(page, "prints", "```text\n");
+    assert_eq!(printed, said);
+    // Positive control: another motion prints something else.
+    assert_ne!(printed, said.replacen("0.", "0.1", 1));
+}
+
 const RING: Ring = Ring { k: 1e-3 };
 
 fn variational_midpoint() -> Motion {
@@ -15,7 +57,7 @@ fn variational_midpoint() -> Motion {
 }
 
 fn standard_method(method: Method) -> Motion {
-    ring::standard_method(&RING, method, start(&RING).unwrap(), &ProgressBar::hidden()).unwrap()
+    ring::standard_method(&RING, method, 1, start(&RING).unwrap(), &ProgressBar::hidden()).unwrap()
 }
 
 fn reference() -> Motion {

@@ -1,4 +1,4 @@
-//! The error asked for, over a random collection of motions: `cargo study tolerance_study` tries more of
+//! The tolerance, over a random collection of motions: `cargo study tolerance_study` tries more of
 //! them.
 
 use dalembert_tests::motions::{Verdict, collection, driven};

@@ -35,7 +35,7 @@ const CHECKS: [(&str, Check); 11] = [
     ("openings of documentation", |_| prose::check()),
     ("links of pages", links::check),
     ("tests that pages name", |_| corrections_page::check()),
-    ("figures and dependencies in the README", |_| pages::check()),
+    ("figures and dependencies in the README", pages::check),
     ("places to touch", |_| places::check()),
     ("the table of tests", |shell| crate::quick::check(shell)),
 ];

@@ -35,7 +35,7 @@ const MEMBERS: u64 = 256;
 const MILLION: u64 = 1_000_000;
 /// Rows of candidates from so many steps to twice as many.
 const ROWS: u32 = 8;
-/// What Gauss rules are solved for: errors asked for, down to the least that has to be reached.
+/// What Gauss rules are solved for: tolerances, down to the least that has to be reached.
 const ASKED: [f64; 9] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
 /// What is asked for is kept where the steps are fine enough, and mostly a hundredth of it.
 const KEPT: f64 = 0.01;
@@ -239,7 +239,7 @@ type Goal<'a, const N: usize> = (f64, Candidate<'a, Ends<N>>);
 
 /// A method in lanes, by so many steps.
 trait CandidatesInLanes<'a, S, const N: usize> {
-    /// To rounding, or as far as each of the errors asked for needs.
+    /// To rounding, or as far as each of the tolerances needs.
     fn candidates(self, name: &'static str, runs: &Runs<'a, S, N>) -> Vec<Goal<'a, N>>;
 }
 

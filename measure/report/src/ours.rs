@@ -34,10 +34,10 @@ where
     ]
 }
 
-/// A run of a number of steps of size h, with an error asked for at its end.
+/// A run of a number of steps of size h, with a tolerance at its end.
 pub type StepsTo<S, const N: usize> = fn(&S, &State<f64, N>, f64, u32, f64) -> Result<State<f64, N>>;
 
-/// Those that make use of an error asked for.
+/// Those that make use of a tolerance.
 pub fn to_an_error<S, const N: usize>() -> Vec<(&'static str, StepsTo<S, N>)>
 where
     S: ForcedLagrangian<N, Scalar = f64>,

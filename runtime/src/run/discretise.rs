@@ -4,7 +4,7 @@ use crate::run::tolerance::{OffersMethods, Request};
 use crate::step::{Discretised, MethodOf};
 use crate::system::Lagrangian;
 
-/// Discretises every system: by a method and a step size, or for an error asked for.
+/// Discretises every system: by a method and a step size, or for a tolerance.
 pub trait Discretise<const N: usize>: Lagrangian<N> + Sized {
     /// This system discretised by `method` with step size `h`: what is asked of a discrete system is asked of
     /// the value returned.

@@ -16,11 +16,11 @@
 //! or a [`Breach`] or an error says that it is not so. The maxima are over the coordinates and the steps so
 //! far, Δ is the change over a step: w is 1/(mω) for an oscillator, and weighs a momentum like the coordinate
 //! that it moves. The promise rests on an estimate, which random motions have tried: the page
-//! `docs/evidence/error-asked-for.md` counts how often it was kept, passed by more than twice, and where a
+//! `docs/evidence/tolerance.md` counts how often it was kept, passed by more than twice, and where a
 //! breach comes late or for nothing.
 //!
 //! **Choice.** One step of each method, from the start and from the first states of its run, is compared to
-//! two half ones, at steps longer and shorter until the error asked for is met: no error is extrapolated
+//! two half ones, at steps longer and shorter until the tolerance is met: no error is extrapolated
 //! below what was tried. The error expected is the sum of these local errors over all steps; it may fill 15 %
 //! of the tolerance. Costs are evaluations of the forces, counted: iterations times stages. A method that
 //! would usually cost much more than the best one so far is not tried, and trying stops at a tenth of the
@@ -123,7 +123,7 @@ struct Chosen<S: Scalar, const N: usize> {
     trials: [Option<Trial>; Method::ALL.len()],
 }
 
-/// Where the error expected has passed the one asked for.
+/// Where the error expected has passed the tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -132,7 +132,7 @@ pub struct Breach {
     pub time: f64,
     /// The error expected of the state there.
     pub expected: f64,
-    /// The error asked for.
+    /// The tolerance.
     pub tolerance: f64,
     /// A tolerance to ask for instead, from the start.
     pub instead: f64,
@@ -287,7 +287,7 @@ where
         self.chosen.steps
     }
 
-    /// The error asked for.
+    /// The tolerance.
     pub fn tolerance(&self) -> f64 {
         self.chosen.tolerance
     }

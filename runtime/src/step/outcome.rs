@@ -21,7 +21,7 @@ use crate::step::{Momenta, PhaseMatrix, State, StepError};
 /// state returned then satisfies the rule's equations with q, v̄ and p changed by some units of their
 /// last places. Whatever does not is an error; no step is taken on a residual that merely stopped falling.
 ///
-/// **But for runs with an error asked for**, [`to_error`](crate::Discretise::to_error) and
+/// **But for runs with a tolerance**, [`to_error`](crate::Discretise::to_error) and
 /// [`Trajectory::solved_for`](crate::Trajectory::solved_for): steps of theirs by a Gauss rule may leave what
 /// that error allows. `floor` is that allowance then, and `residual` what is left, as the contraction
 /// measured foretells.

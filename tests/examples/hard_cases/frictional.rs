@@ -125,7 +125,7 @@ pub fn kepler_drag() -> Result<Case> {
     Ok(Case {
         title: "Kepler orbits that almost collide, with drag",
         breaks: "R = ½k|v|², k = 0.05, takes angular momentum, J(t) = J(0) e^{−kt} on every orbit, and the near side comes closer each time.",
-        ours: "The explicit fitted rule and the splitting have the law exactly, at every step size and on orbits that are nonsense, to the rounding of q × p where a \
+        ours: "The explicit fitted rule and the splitting have the law exactly, at every step size, even where the orbit itself is wrong, to the rounding of q × p where a \
                body is thrown far out; the trapezoidal rule has its own, ((2 − hk)/(2 + hk))ⁿ, exactly. The others are right to their order until the \
                near side is no longer resolved, where implicit steps have no real solution and say so.",
         head: &["e", "steps an orbit", "rule", "largest \\|J e^{kt}/J₀ − 1\\|, 10 periods", "stopped"],

@@ -66,8 +66,7 @@ impl Case {
 const HEAD: &str = "# Hard cases\n\n\
      What the rules do where codes break. All figures and pictures are of one run, of the code as it was then, by\n\n\
      ```sh\ncargo study hard_cases\n```\n\n\
-     It takes some minutes of one core. With `text` at its end the command writes anew what follows the figures, from \"Also tested\" on, and\n\
-     leaves these as they are; with names of cases it prints what they find and leaves the page alone.\n\n\
+     It takes some minutes of one core.\n\n\
      Each case has a quick version among the tests. All quantities are dimensionless. A step that cannot be taken returns a named\n\
      `StepError` and leaves the last good state; the tables say which error, and where.\n\n";
 

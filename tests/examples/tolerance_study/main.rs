@@ -1,4 +1,4 @@
-//! What came of the errors asked for, over random motions: writes `docs/evidence/error-asked-for.md`.
+//! What came of the tolerances, over random motions: writes `docs/evidence/tolerance.md`.
 //!
 //! ```text
 //! cargo study tolerance_study [seed motions [family]]
@@ -17,7 +17,7 @@ use anyhow::{Context, Result};
 use dalembert_tests::motions::{Cheapest, Clock, Motion, Outcome, collection, driven, of_family};
 use page::Collection;
 
-/// The errors asked for.
+/// The tolerances.
 pub const TOLERANCES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 
 /// The collections: the code was written with an eye on the first two, not on the others.
@@ -37,7 +37,7 @@ const MORE: (&str, u64, usize) = ("stiff pair", 5, 500);
 pub struct Run {
     /// The kind of motion.
     pub family: &'static str,
-    /// The error asked for.
+    /// The tolerance.
     pub tolerance: f64,
     /// What came of the choice.
     pub chosen: Outcome,
@@ -100,7 +100,7 @@ fn main() -> Result<()> {
         all.push(later());
         all
     });
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/evidence/error-asked-for.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/evidence/tolerance.md");
     std::fs::write(&path, page::text(&collections))
         .with_context(|| format!("{} cannot be written", path.display()))
 }

@@ -1,4 +1,4 @@
-//! An error asked for, with what the start does not show: drives of any frequency, forces that come and go,
+//! A tolerance, with what the start does not show: drives of any frequency, forces that come and go,
 //! and work that has no end.
 
 use std::f64::consts::TAU;

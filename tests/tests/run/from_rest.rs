@@ -1,4 +1,4 @@
-//! An error asked for from rest at the origin, where the state has no size: the choice is that of the motion,
+//! A tolerance from rest at the origin, where the state has no size: the choice is that of the motion,
 //! as from anywhere else.
 
 use dalembert::{Discretise, State, rayleigh_system};

@@ -357,7 +357,7 @@ fn inputs_and_lanes_given_to_others() {
     }
 }
 
-/// To an error asked for, and beyond the time that it was asked for; with members that are stiff, or put in
+/// To a tolerance, and beyond the time that it was asked for; with members that are stiff, or put in
 /// later.
 #[test]
 fn solved_for_an_error() {

@@ -1,4 +1,4 @@
-//! Runs: memory, checkpoints, compositions, splittings, an error asked for.
+//! Runs: memory, checkpoints, compositions, splittings, a tolerance.
 
 mod anchors;
 mod at_present;

@@ -1,4 +1,4 @@
-//! Runs on constraints: an error asked for, events, states between steps; each beside a motion in minimal
+//! Runs on constraints: a tolerance, events, states between steps; each beside a motion in minimal
 //! coordinates.
 
 use dalembert::nalgebra::Vector2;

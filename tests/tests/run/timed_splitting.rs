@@ -174,7 +174,7 @@ fn a_run_is_resumed_at_its_time() {
     check(Splitting::blanes_casas_escorihuela_8());
 }
 
-/// A method for an error asked for may be a splitting.
+/// A method for a tolerance may be a splitting.
 #[test]
 fn an_error_asked_for_is_kept() {
     let system = Pushed { k: 1.1, r: [0.05, 0.2], rate: 1.7 };

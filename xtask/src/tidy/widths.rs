@@ -9,7 +9,7 @@ use crate::project;
 
 /// Folders with comments that are wider today, and how many lines. It only ever goes down.
 const CEILINGS: &[(&str, usize)] = &[
-    ("bindings", 31),
+    ("bindings", 15),
     ("ensemble", 3),
     ("examples", 5),
     ("firmware", 2),

@@ -321,24 +321,17 @@ impl System {
 
     /// The motion from (q, v), or from (q, p).
     ///
-    /// By steps of one size, h and steps, or to an error: with a tolerance, in units of q, method and step size
-    /// are chosen for the motion until the time `until` from the start. Python is free to do other things
-    /// meanwhile; Ctrl-C ends the run.
+    /// By steps of one size, h and steps, or to an error: with a tolerance, in units of q, method and step
+    /// size are chosen for the motion until the time `until` from the start. Python is free to do other
+    /// things meanwhile; Ctrl-C ends the run.
     ///
-    /// Parameters
-    /// ----------
-    /// q : configuration, n numbers
-    /// v : velocity, n numbers, or
-    /// p : momentum, n numbers
-    /// h, steps : size and number of steps
-    /// tolerance, until : an error asked for, and until when
-    /// every : steps from one record to the next; start and end are recorded as well
-    /// rule : one of RULES; the first unless said
-    /// u : the input, or an array with one for each step
-    /// t : the time at the start, of a system that takes it; 0 unless said
-    /// derivatives : whether records have derivatives by start and parameters
-    /// reactions : whether records have λ, of a system with constraints
-    /// events : up to eight functions whose zeros are found, to rounding: each a Plane, or a callable of (t, q, v) that returns a
+    /// Parameters ---------- q : configuration, n numbers v : velocity, n numbers, or p : momentum, n numbers
+    /// h, steps : size and number of steps tolerance, until : a tolerance, and until when every : steps from
+    /// one record to the next; start and end are recorded as well rule : one of RULES; the first unless said
+    /// u : the input, or an array with one for each step t : the time at the start, of a system that takes
+    /// it; 0 unless said derivatives : whether records have derivatives by start and parameters reactions :
+    /// whether records have λ, of a system with constraints events : up to eight functions whose zeros are
+    /// found, to rounding: each a Plane, or a callable of (t, q, v) that returns a
     ///     number; with an attribute `direction`, 1 or -1, crossings one way alone count, and one with `terminal` ends the run
     /// progress : is called with the steps taken and to take, some twenty times a second
     ///
@@ -420,13 +413,14 @@ impl System {
 
     /// Many members, each a system and a start of its own, on all cores: each is bit by bit its own `run`.
     ///
-    /// q, v, p and u are one row for all, or one for each member; `fields` has fields that differ, one row for each. Members
-    /// that fail do not stop the others: their rows are NaN, and `failures` says why. To a tolerance a member
-    /// is run again by another choice where its error passes the one asked for, watched or not: it fails where
-    /// none keeps it.
+    /// q, v, p and u are one row for all, or one for each member; `fields` has fields that differ, one row
+    /// for each. Members that fail do not stop the others: their rows are NaN, and `failures` says why. To a
+    /// tolerance a member is run again by another choice where its error passes the tolerance, watched or
+    /// not: it fails where none keeps it.
     ///
-    /// With a folder the results go there as Parquet files, one for each part of the members. A part is there whole or
-    /// not at all, and one that is there is not computed again: killed and started again, the same call does what is missing.
+    /// With a folder the results go there as Parquet files, one for each part of the members. A part is there
+    /// whole or not at all, and one that is there is not computed again: killed and started again, the same
+    /// call does what is missing.
     ///
     /// Parameters
     /// ----------
@@ -498,8 +492,8 @@ impl System {
         ensemble::run(py, &*model, given)
     }
 
-    /// A step from (q, v), or from (q, p), with its derivatives: A, by rules also B and by the parameters that the
-    /// attribute lists.
+    /// A step from (q, v), or from (q, p), with its derivatives: A, by rules also B and by the parameters
+    /// that the attribute lists.
     ///
     /// Parameters
     /// ----------
@@ -586,11 +580,12 @@ impl System {
         }
     }
 
-    /// What translations and rotations do to the discrete Lagrangian, to the force and to their momenta: a report for each.
+    /// What translations and rotations do to the discrete Lagrangian, to the force and to their momenta: a
+    /// report for each.
     ///
-    /// They are judged on segments (q0, q1) that are spread evenly: q0 in the box from low to high, each coordinate of
-    /// q1 − q0 within ∓reach, about h times the speed. Both ends are moved onto the constraints, if there are any, and
-    /// translations and rotations that leave these are left out.
+    /// They are judged on segments (q0, q1) that are spread evenly: q0 in the box from low to high, each
+    /// coordinate of q1 − q0 within ∓reach, about h times the speed. Both ends are moved onto the
+    /// constraints, if there are any, and translations and rotations that leave these are left out.
     ///
     /// Parameters
     /// ----------

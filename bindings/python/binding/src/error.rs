@@ -32,11 +32,11 @@ t        the time of the last good state
 q, p     the last good state; None as far as the start is none
 partial  what a run had recorded until then: a dict of arrays t, q, v, p, energy; None elsewhere";
 
-const TOLERANCE_ERROR: &str = "No method was chosen for the error asked for: the message says why.";
+const TOLERANCE_ERROR: &str = "No method was chosen for the tolerance: the message says why.";
 
 const EVENT_ERROR: &str = "An event function that cannot be followed: the message says which and when.";
 
-const BREACH_WARNING: &str = "The error expected has passed the one asked for: `run.breach` says where.";
+const BREACH_WARNING: &str = "The error expected has passed the tolerance: `run.breach` says where.";
 
 /// Adds the exceptions to `module`.
 ///
@@ -256,7 +256,7 @@ pub fn of_refusal(py: Python<'_>, refusal: Refusal, rule: Option<&str>, rules: &
         ),
         Refusal::Samples(error) => PyValueError::new_err(error.to_string()),
         Refusal::NoError => PyValueError::new_err(
-            "tolerance: the rules of this system offer no method to an error asked for; give h and steps",
+            "tolerance: the rules of this system offer no method for a tolerance; give h and steps",
         ),
         Refusal::Tolerance(error) => match classes(py) {
             Ok(classes) => PyErr::from_type(classes.tolerance.bind(py).clone(), error.to_string()),
@@ -280,7 +280,7 @@ pub fn of_memory(reason: &std::collections::TryReserveError) -> PyErr {
     PyMemoryError::new_err(format!("records of the run: {reason}; take a larger `every`"))
 }
 
-/// Warns of an error that has passed the one asked for.
+/// Warns of an error that has passed the tolerance.
 ///
 /// # Errors
 /// The warning, where it was made an error.

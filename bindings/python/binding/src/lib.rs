@@ -1,22 +1,24 @@
-//! Python modules of systems that `#[rayleigh_system]` generates: runs, derivatives and energies as NumPy arrays.
+//! Python modules of systems that `#[rayleigh_system]` generates: runs, derivatives and energies as NumPy
+//! arrays.
 //!
-//! In a crate of its own, `crate-type = ["cdylib"]`, [`parameters!`] declares the struct of a system's fields and [`module!`]
-//! names the systems; maturin builds the module. `examples/python/` is the template, and `docs/python.md` its guide.
+//! In a crate of its own, `crate-type = ["cdylib"]`, [`parameters!`] declares the struct of a system's fields
+//! and [`module!`] names the systems; maturin builds the module. `examples/python/` is the template, and
+//! `docs/python.md` its guide.
 //!
 //! | in Python | |
 //! |---|---|
 //! | `ring = Ring(k=1e-3)` | a class a system, its fields attributes with their documentation |
 //! | `ring.run(h=0.1, steps=1000, q=…, v=…)` | the motion: arrays `t`, `q`, `v`, `p`, `energy` |
-//! | `ring.run(tolerance=1e-9, until=100.0, q=…, v=…)` | the same to an error asked for |
+//! | `ring.run(tolerance=1e-9, until=100.0, q=…, v=…)` | the same to a tolerance |
 //! | `ring.ensemble(h=0.1, steps=1000, q=…, v=…)` | many members on all cores: arrays, or Parquet files that are their own checkpoint |
 //! | `ring.linearization(h=0.1, q=…, v=…)` | a step with A, B and derivatives by parameters |
 //! | `ring.energy(q=…, v=…)` | energies |
 //! | `bob.nearest(q=…, v=…)` | of a system with constraints: the nearest state on them |
 //! | `Ring.RULES`, `Ring.STRUCTURE`, … | what is known of the class |
 //!
-//! A run is one call: it takes its steps without the lock of the interpreter, hands its arrays over without a copy, and
-//! ends at Ctrl-C. Steps are those of the run in Rust, bit by bit. A step that fails is the exception `StepError` with
-//! what the error of Rust knows.
+//! A run is one call: it takes its steps without the lock of the interpreter, hands its arrays over without a
+//! copy, and ends at Ctrl-C. Steps are those of the run in Rust, bit by bit. A step that fails is the
+//! exception `StepError` with what the error of Rust knows.
 
 #[doc(hidden)]
 pub use dalembert;

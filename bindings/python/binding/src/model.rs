@@ -181,7 +181,7 @@ pub struct Ran {
     pub record: Record,
     /// Why there are no more.
     pub stop: Option<Stop>,
-    /// The choice made for the error asked for, and where the run passed it.
+    /// The choice made for the tolerance, and where the run passed it.
     pub guarded: Option<Guarded>,
 }
 

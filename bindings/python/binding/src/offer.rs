@@ -37,10 +37,10 @@ pub trait Offers<const N: usize>: System<N> {
     /// The offers of all methods.
     fn offers() -> Vec<Offer<Self, N>>;
 
-    /// Runs to an error asked for, where the rules offer some.
+    /// Runs to a tolerance, where the rules offer some.
     fn steps_to_error() -> Option<Box<dyn StepsToError<Self, N>>>;
 
-    /// Runs to an error asked for.
+    /// Runs to a tolerance.
     ///
     /// # Errors
     /// [`Refusal::NoError`].
@@ -127,7 +127,7 @@ pub trait DrivenSteps<S: System<N>, const N: usize>: Send + Sync {
     ) -> Result<StepDerivatives<N>, StepError>;
 }
 
-/// An error that is asked for, in units of q, and until which time from the start.
+/// A tolerance, in units of q, and until which time from the start.
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs)]
 pub struct ErrorAsked {
@@ -147,11 +147,11 @@ pub enum Stepping<'a> {
         /// By which rule; the first of the system if none is named.
         rule: Option<&'a str>,
     },
-    /// The steps that an error asked for needs.
+    /// The steps that a tolerance needs.
     ToError(ErrorAsked),
 }
 
-/// Runs to an error asked for.
+/// Runs to a tolerance.
 #[allow(clippy::too_many_arguments, reason = "a run has so many")]
 pub trait StepsToError<S: System<N>, const N: usize>: Send + Sync {
     /// A run from `start`; what became of its error.
@@ -187,9 +187,9 @@ pub trait StepsToError<S: System<N>, const N: usize>: Send + Sync {
     fn together<'a>(&self, asked: ErrorAsked) -> Box<dyn Together<S::View<'a>, N> + 'a>;
 }
 
-/// Asks what a system and a method offer: a function of [`NotOffered`] answers `None` where that of `Probe` itself
-/// has bounds that do not hold. It decides for types that are known, as in what [`module!`](crate::module)
-/// writes, and there without a word about the methods of a system.
+/// Asks what a system and a method offer: a function of [`NotOffered`] answers `None` where that of `Probe`
+/// itself has bounds that do not hold. It decides for types that are known, as in what
+/// [`module!`](crate::module) writes, and there without a word about the methods of a system.
 pub struct Probe<S, M, const N: usize> {
     method: M,
     system: PhantomData<fn() -> S>,
@@ -412,7 +412,7 @@ where
     S: System<N>,
     for<'a> S::View<'a>: OffersMethods<N>,
 {
-    /// Runs to an error asked for.
+    /// Runs to a tolerance.
     #[must_use]
     pub fn steps_to_error(&self) -> Option<Box<dyn StepsToError<S, N>>> {
         Some(Box::new(Offered))

@@ -66,7 +66,7 @@ pub enum Stop {
     TooLarge(TryReserveError),
 }
 
-/// The method and step size chosen for an error asked for, and where the run passed it.
+/// The method and step size chosen for a tolerance, and where the run passed it.
 #[derive(Clone, Debug)]
 pub struct Guarded {
     /// The method chosen.
@@ -75,7 +75,7 @@ pub struct Guarded {
     pub h: f64,
     /// The error expected at the end.
     pub expected: f64,
-    /// Where it passed the one asked for.
+    /// Where it passed the tolerance.
     pub breach: Option<Breach>,
 }
 

@@ -12,14 +12,14 @@ use crate::model::Ran;
 use crate::pickled::{Reduced, reduced};
 use crate::record::Record;
 
-/// Where the error expected of a run has passed the one asked for.
+/// Where the error expected of a run has passed the tolerance.
 #[pyclass(frozen, get_all)]
 pub struct Breach {
     /// The time.
     t: f64,
     /// The error expected of the state there.
     expected: f64,
-    /// The error asked for.
+    /// The tolerance.
     tolerance: f64,
     /// A tolerance to ask for instead, from the start.
     instead: f64,
@@ -70,11 +70,11 @@ pub struct Run {
     iterations: u64,
     /// The step size.
     h: f64,
-    /// The rule, or the method chosen for the error asked for.
+    /// The rule, or the method chosen for the tolerance.
     rule: String,
-    /// The error expected at the end of a run to an error asked for; None of others.
+    /// The error expected at the end of a run to a tolerance; None of others.
     expected: Option<f64>,
-    /// Where the error expected has passed the one asked for; None where it has not.
+    /// Where the error expected has passed the tolerance; None where it has not.
     breach: Option<Py<Breach>>,
     /// The events of each function that was given.
     events: Vec<Py<Crossings>>,
@@ -155,7 +155,7 @@ impl Run {
 }
 
 impl Run {
-    /// The warning that the error expected has passed the one asked for, where it has.
+    /// The warning that the error expected has passed the tolerance, where it has.
     #[must_use]
     pub fn breach_text(&self) -> Option<String> {
         let Breach { t, expected, tolerance, instead } = self.breach.as_ref()?.get();

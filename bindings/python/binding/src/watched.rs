@@ -29,7 +29,7 @@ pub struct Watched<'a, S: System<N>, const N: usize> {
 pub enum Unwatched<S, const N: usize> {
     /// Steps of one size.
     Fixed(Box<dyn Steps<S, N>>, Plan<f64>),
-    /// Steps that an error asked for needs: of as many runs as it takes.
+    /// Steps that a tolerance needs: of as many runs as it takes.
     ToError(Box<dyn StepsToError<S, N>>, ErrorAsked),
 }
 

@@ -19,7 +19,7 @@ use crate::numbers::{
 use crate::step::{Report, State};
 use crate::system::{ForcedLagrangian, Stages};
 
-/// The share of the error asked for that unsolved stages may make.
+/// The share of the tolerance that unsolved stages may make.
 pub(crate) const SLACK: f64 = 0.01;
 
 /// More sweeps than a smaller slack would cost elsewhere.

@@ -50,7 +50,7 @@ use schedule::{RESOLVED, ROUGHER, derivatives};
 ///
 /// The run goes on after a [`Breach`], with the same step size. By the clock the guard costs some three times
 /// a run of fewer than 100 steps, and of longer ones 0.1 to 4 times, by what a step costs beside the motion's
-/// derivative: the page `docs/evidence/error-asked-for.md`. [`Choice::unguarded`] is the run without it.
+/// derivative: the page `docs/evidence/tolerance.md`. [`Choice::unguarded`] is the run without it.
 pub struct GuardedTrajectory<'a, L, M, const N: usize>
 where
     L: ActingForce<N> + 'a,

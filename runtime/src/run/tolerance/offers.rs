@@ -9,7 +9,7 @@ use crate::system::ActingForce;
 /// itself and its compositions. Splittings come with an explicit trapezoidal rule, Gauss methods with
 /// `gauss`.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` offers no method to an error asked for",
+    message = "`{Self}` offers no method for a tolerance",
     label = "no self-adjoint rule of order 2 is listed for this system",
     note = "list one: `#[rayleigh_system(rule = midpoint)]`, or `rule = [trapezoidal, gauss]` for small errors"
 )]

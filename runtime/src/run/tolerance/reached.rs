@@ -1,4 +1,4 @@
-//! The end of a run that keeps the error asked for, whatever its start shows of it.
+//! The end of a run that keeps the tolerance, whatever its start shows of it.
 
 use nalgebra::ComplexField;
 

@@ -1,4 +1,4 @@
-//! An error asked for, of the methods that a system offers.
+//! A tolerance for a system, by the methods that it offers.
 
 use core::fmt;
 
@@ -9,7 +9,7 @@ use crate::step::stop::Stop;
 use crate::step::{State, StepError};
 use crate::system::ActingForce;
 
-/// An error asked for of a system: [`to_error`](crate::Discretise::to_error).
+/// A tolerance for a system: [`to_error`](crate::Discretise::to_error).
 #[must_use = "nothing is chosen before `until`"]
 pub struct Request<'a, L, M> {
     system: &'a L,
@@ -17,7 +17,7 @@ pub struct Request<'a, L, M> {
     tolerance: f64,
 }
 
-/// An error asked for of a system over a time: [`Request::until`].
+/// A tolerance for a system over a time: [`Request::until`].
 #[must_use = "nothing is chosen before `choice` or `run`"]
 pub struct TimedRequest<'a, L, M> {
     request: Request<'a, L, M>,
@@ -178,9 +178,9 @@ impl<'a, L, M> TimedRequest<'a, L, M> {
     /// passes its error at the pericentre. So as long as a run ends in a breach, or a step of it fails,
     /// another one starts from the beginning. Its method and step size are chosen where the last one erred
     /// most as well as at the start, for an error that is smaller by as much as errors have grown on the way;
-    /// where no method is expected to reach that, the last one takes shorter steps. What is kept is the error
-    /// asked for. Most motions need one run or two; eight are tried. The page
-    /// `docs/evidence/error-asked-for.md` counts how often none of them keeps it: at kinks, as a rule.
+    /// where no method is expected to reach that, the last one takes shorter steps. What is kept is the
+    /// tolerance. Most motions need one run or two; eight are tried. The page
+    /// `docs/evidence/tolerance.md` counts how often none of them keeps it: at kinks, as a rule.
     ///
     /// ```
     /// use dalembert::{Discretise, State, rayleigh_system};

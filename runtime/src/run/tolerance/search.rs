@@ -293,7 +293,7 @@ where
         if reach.is_finite() { reach } else { 0.0 }
     }
 
-    /// The error asked for by radian of the fastest motion, as a share of the state.
+    /// The tolerance by radian of the fastest motion, as a share of the state.
     fn relative(&self) -> f64 {
         let size = self.size();
         SAFETY * self.tolerance / (size * self.fastest * self.time)
