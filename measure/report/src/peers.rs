@@ -13,6 +13,9 @@ mod diffsol;
 mod ode_solvers;
 pub mod python;
 
+/// The most steps of a run: what takes more has come apart, and two of the methods store every step.
+const MOST_STEPS: u32 = 10_000_000;
+
 /// A method's run over `time` from y = (q, v) with relative and absolute tolerance alike.
 pub type Adaptive<S, const M: usize> = fn(&S, &[f64; M], f64, f64) -> Result<[f64; M]>;
 

@@ -5,7 +5,7 @@
 use anyhow::{Result, anyhow};
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 
-use super::{Motion, last};
+use super::{MOST_STEPS, Motion, last};
 use crate::scenes::Accelerated;
 
 impl<S: Accelerated<N>, const N: usize, const M: usize> ODE<f64, [f64; M]> for Motion<'_, S, N> {
@@ -22,7 +22,7 @@ pub fn dop853<S: Accelerated<N>, const N: usize, const M: usize>(
     tolerance: f64,
 ) -> Result<[f64; M]> {
     let solution = IVP::ode(&Motion::<S, N>::new(scene), 0.0, time, *start)
-        .method(ExplicitRungeKutta::dop853().max_steps(usize::MAX))
+        .method(ExplicitRungeKutta::dop853().max_steps(MOST_STEPS as usize))
         .rtol(tolerance)
         .atol(tolerance)
         .solve()

@@ -2,10 +2,10 @@
 //!
 //! Its implicit methods are for stiff systems, and no scene is one.
 
-use anyhow::{Result, anyhow};
+use anyhow::{Result, anyhow, bail};
 use diffsol::{NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason};
 
-use super::Motion;
+use super::{MOST_STEPS, Motion};
 use crate::scenes::Accelerated;
 
 pub fn tsit45<S: Accelerated<N>, const N: usize, const M: usize>(
@@ -25,6 +25,10 @@ pub fn tsit45<S: Accelerated<N>, const N: usize, const M: usize>(
         .map_err(|error| anyhow!("{error}"))?;
     let mut solver = problem.tsit45().map_err(|error| anyhow!("{error}"))?;
     solver.set_stop_time(time).map_err(|error| anyhow!("{error}"))?;
-    while !matches!(solver.step().map_err(|error| anyhow!("{error}"))?, OdeSolverStopReason::TstopReached) {}
-    Ok(solver.state().y.batch_as_slice(0).try_into()?)
+    for _ in 0..MOST_STEPS {
+        if matches!(solver.step().map_err(|error| anyhow!("{error}"))?, OdeSolverStopReason::TstopReached) {
+            return Ok(solver.state().y.batch_as_slice(0).try_into()?);
+        }
+    }
+    bail!("more than {MOST_STEPS} steps")
 }

@@ -4,7 +4,7 @@ use anyhow::{Result, anyhow};
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, SVector, System};
 
-use super::{Motion, last};
+use super::{MOST_STEPS, Motion, last};
 use crate::scenes::Accelerated;
 
 impl<S: Accelerated<N>, const N: usize, const M: usize> System<f64, SVector<f64, M>> for Motion<'_, S, N> {
@@ -35,7 +35,7 @@ pub fn dop853<S: Accelerated<N>, const N: usize, const M: usize>(
         6.0,
         time,
         0.0,
-        u32::MAX,
+        MOST_STEPS,
         1000,
         OutputType::Sparse,
     );
