@@ -59,7 +59,19 @@ impl<S: Scalar, const N: usize, const M: usize> Sliding<S, N, M> {
         start: &SVector<S, M>,
     ) -> Option<Held<S, M>> {
         let free = self.values - self.rows * factored.solve(left);
-        Elements { sizes, response: self.response, free }.held(start)
+        let elements = Elements { sizes, response: self.response, free };
+        let mut held = elements.held(start)?;
+        if M > 1 && held.sticks.contains(&true) {
+            let remains = left + self.impulse(&held.forces);
+            let slip = self.values - self.rows * factored.solve(&remains);
+            // Of what sticks redundantly no more is known.
+            if let Some(rest) = elements.rest(&held.sticks, &slip)
+                && rest.dot(&rest) <= S::EPSILON
+            {
+                held.forces += rest;
+            }
+        }
+        Some(held)
     }
 
     /// The share of the friction forces s in p0.

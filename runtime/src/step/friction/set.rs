@@ -86,6 +86,26 @@ impl<S: Scalar, const M: usize> Elements<'_, S, M> {
         None
     }
 
+    /// What is left to add to the forces that hold, so that they take away `slip` from what sticks: found of
+    /// what their impulses leave, where elements far apart in strength no longer round each other.
+    pub(super) fn rest(&self, sticks: &[bool; M], slip: &SVector<S, M>) -> Option<SVector<S, M>> {
+        let mut rows: SMatrix<S, M, M> = SMatrix::identity();
+        let mut left: SVector<S, M> = nalgebra::zero();
+        let transposed = self.response.transpose();
+        let of_rows = rows.data.0.iter_mut().zip(&transposed.data.0).zip(sticks);
+        let entries = left.as_mut_slice().iter_mut().zip(slip.as_slice());
+        for (k, (((row, response), sticks), (left, slip))) in of_rows.zip(entries).enumerate() {
+            if *sticks {
+                *row = *response;
+                if let Some(own) = row.get_mut(k) {
+                    *own += *own * (S::EPSILON * S::constant(SHARE));
+                }
+                *left = *slip;
+            }
+        }
+        Some(NewtonMatrix::factored(&rows.transpose())?.solve(&left))
+    }
+
     fn elements(&self) -> impl Iterator<Item = Element> + Clone {
         elements(self.sizes)
     }
