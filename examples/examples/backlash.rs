@@ -206,8 +206,8 @@ fn draw(motion: &Motion) -> Result<std::path::PathBuf> {
     ];
     let panels = [Panel::new(
         "A motor, gears with play, and a stop: impacts, rest, release",
-        linear("time, s"),
-        linear("angle, rad"),
+        linear("time (s)"),
+        linear("angle (rad)"),
         curves,
     )];
     picture::write("backlash", [1000, 640], 1, &panels)

@@ -152,7 +152,7 @@ fn draw(bouncing: &Bouncing) -> Result<std::path::PathBuf> {
         Panel::new(
             "A pendulum against a stop: impacts between the steps",
             linear("time t (dimensionless)"),
-            linear("angle, rad"),
+            linear("angle (rad)"),
             angle,
         ),
         Panel::new(

@@ -240,14 +240,14 @@ fn draw(seeing: &[Moment], blind: &[Moment]) -> Result<PathBuf> {
         Curve::line("taken by friction", colour::FOURTH, 3, of(seeing, &|at| 1e-3 * at.account.dissipated))
             .dashed(Dash::DashDotted),
     ];
-    let time = linear("time t, s");
+    let time = linear("time t (s)");
     let panels = [
-        Panel::new("Lifted while it travels", linear("along, m"), linear("up, m"), way).to_equal_scale(),
-        Panel::new("Places along, and the rope", time, linear("place, length, m"), places),
-        Panel::new("Swing", time, linear("rope from below, °"), pair(&|at| at.swing.to_degrees())),
-        Panel::new("Force of the drive", time, linear("on the trolley, kN"), pair(&|at| 1e-3 * at.drive)),
-        Panel::new("Force in the rope: the reaction", time, linear("tension, kN"), tensions),
-        Panel::new("Where energy comes from, and goes", time, linear("energy, kJ"), energy),
+        Panel::new("Lifted while it travels", linear("along (m)"), linear("up (m)"), way).to_equal_scale(),
+        Panel::new("Places along, and the rope", time, linear("place, length (m)"), places),
+        Panel::new("Swing", time, linear("rope from below (°)"), pair(&|at| at.swing.to_degrees())),
+        Panel::new("Force of the drive", time, linear("on the trolley (kN)"), pair(&|at| 1e-3 * at.drive)),
+        Panel::new("Force in the rope: the reaction", time, linear("tension (kN)"), tensions),
+        Panel::new("Where energy comes from, and goes", time, linear("energy (kJ)"), energy),
     ];
     picture::write("crane", [2100, 1240], 3, &panels)
 }

@@ -296,7 +296,7 @@ fn draw(moments: &[Moment], path: Option<PathBuf>) -> Result<PathBuf> {
         Panel::new(
             "How far off the sphere: the largest of twenty",
             logarithmic("time t (dimensionless)"),
-            linear("||q|² − 1|, 2.2·10⁻¹⁶"),
+            linear("||q|² − 1| (2.2·10⁻¹⁶)"),
             vec![Curve::line("", colour::VARIATIONAL, 1, off)],
         ),
     ];

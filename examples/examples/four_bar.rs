@@ -211,20 +211,20 @@ fn draw(motion: &[Moment<8>], driven: &[Moment<8>]) -> Result<PathBuf> {
     ];
     let off = vec![Curve::line("", colour::VARIATIONAL, 1, over_time(|at| at.off / f64::EPSILON))];
 
-    let time = linear("time t, s");
+    let time = linear("time t (s)");
     let panels = [
-        Panel::new("A crank's turn", linear("x, m"), linear("y, m"), linkage).to_equal_scale(),
+        Panel::new("A crank's turn", linear("x (m)"), linear("y (m)"), linkage).to_equal_scale(),
         Panel::new(
             "What the joints carry while the motor drives",
-            linear("angle of the crank from rest, °"),
-            linear("reaction, N"),
+            linear("angle of the crank from rest (°)"),
+            linear("reaction (N)"),
             joints.into(),
         ),
-        Panel::new("Where the energy goes", time, linear("energy, J"), energy),
+        Panel::new("Where the energy goes", time, linear("energy (J)"), energy),
         Panel::new(
             "How far off the constraints: the largest of eight",
             time,
-            linear("|g|, 2.2·10⁻¹⁶ m"),
+            linear("|g| (2.2·10⁻¹⁶ m)"),
             off,
         ),
     ];

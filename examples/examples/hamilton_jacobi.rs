@@ -202,7 +202,13 @@ fn main() -> Result<()> {
             fan_panel("Damped pendulum from rest: a caustic with a cusp", 0.1, &swing_fan, &caustics(&dense)),
             section_panel("Its sections fold over beyond the caustic", folds, Default::default()),
             wave_panel("A plane wave past a hollow: fronts S_k = const", &waves, &theory, 1.5, past)?,
-            wave_panel("Behind the focus: their cusps run along the caustic", &waves, &theory, 0.7, behind)?,
+            wave_panel(
+                "Behind the focus the fronts have cusps, on the caustic",
+                &waves,
+                &theory,
+                0.7,
+                behind,
+            )?,
         ],
     )?;
     println!("picture: {}", path.display());
@@ -293,7 +299,7 @@ fn wave_panel<'a>(
         (colour::FOURTH, Dash::Solid),
         (colour::EULER, Dash::Dashed),
         (colour::VARIATIONAL, Dash::Solid),
-        (colour::REFERENCE, Dash::DashDotted),
+        (colour::FIFTH, Dash::DashDotted),
     ];
     for ((label, k), (colour, dash)) in fronts.into_iter().zip(styles) {
         let points = front(waves, k, &spread(-reach, reach, 241))?;

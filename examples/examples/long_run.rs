@@ -57,7 +57,7 @@ fn main() -> Result<()> {
     let points = [first].into_iter().chain(points).collect();
     let curve = Curve::line("midpoint, h = 0.02, every 5 000th step", colour::VARIATIONAL, 1, points);
     let panel = Panel::new(
-        "Chaotic double pendulum: weak friction takes its energy",
+        "Chaotic double pendulum: its energy falls to friction, over 5 million steps",
         linear("time t (dimensionless)"),
         linear("energy E (dimensionless)"),
         vec![curve],

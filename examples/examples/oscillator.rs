@@ -101,14 +101,18 @@ fn energy(state: &State<f64, 1>) -> f64 {
 fn draw(motions: &[Motion]) -> Result<PathBuf> {
     let time = linear("time t (dimensionless)");
     let panels = [
-        panel("Position", [time, linear("q (dimensionless)")], motions, |t, state| (t, state.q[0])),
+        panel("Explicit Euler is off by far", [time, linear("q (dimensionless)")], motions, |t, state| {
+            (t, state.q[0])
+        }),
         panel(
-            "Phase plane",
+            "All spiral in, Euler too late",
             [linear("q (dimensionless)"), linear("v (dimensionless)")],
             motions,
             |_, state| (state.q[0], state.p[0] / SYSTEM.m),
         ),
-        panel("Energy", [time, linear("E (dimensionless)")], motions, |t, state| (t, energy(state))),
+        panel("The energy falls to friction", [time, linear("E (dimensionless)")], motions, |t, state| {
+            (t, energy(state))
+        }),
         errors(time, motions),
     ];
     picture::write("oscillator", [1600, 1200], 2, &panels)
@@ -138,5 +142,10 @@ fn errors<'a>(time: Axis<'a>, motions: &'a [Motion]) -> Panel<'a> {
         let points = later.map(|(t, state)| (*t, (energy(state) - energy(&exact(*t))).abs())).collect();
         Curve::line(motion.method, motion.colour, 3, points).dashed(dash)
     });
-    Panel::new("Error of the energy", time, logarithmic("|E − exact| (dimensionless)"), curves.collect())
+    Panel::new(
+        "At this h Runge–Kutta 4 is nearer by its order",
+        time,
+        logarithmic("|E − exact| (dimensionless)"),
+        curves.collect(),
+    )
 }

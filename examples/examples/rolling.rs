@@ -259,22 +259,22 @@ fn draw(damped: &[Moment], free: &[Moment], bowl: &[Vec<(f64, f64)>; 3]) -> Resu
         Curve::line("midpoint, load on the axle", colour::RUNGE_KUTTA, 3, percent(&bowl[1]))
             .dashed(Dash::Dotted),
     ];
-    let time = linear("time t, s");
+    let time = linear("time t (s)");
     let panels = [
-        Panel::new("Pushed off backwards, it turns about", linear("x, m"), linear("y, m"), floor)
+        Panel::new("Pushed off backwards, it turns about", linear("x (m)"), linear("y (m)"), floor)
             .to_equal_scale(),
         Panel::new(
             "From backwards to forwards, with friction or without",
-            linear("speed of the axle, m/s"),
-            linear("turning, m/s at a wheel"),
+            linear("speed of the axle (m/s)"),
+            linear("turning, at a wheel (m/s)"),
             turning,
         )
         .to_equal_scale(),
-        Panel::new("Where the energy goes", time, linear("energy, J"), energy),
+        Panel::new("Where the energy goes", time, linear("energy (J)"), energy),
         Panel::new(
             "Without friction, in a bowl: energy that should stay",
             time,
-            linear("energy gained, %"),
+            linear("energy gained (%)"),
             drift,
         ),
     ];

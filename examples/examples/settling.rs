@@ -310,15 +310,15 @@ fn draw(study: &Study, path: Option<PathBuf>) -> Result<PathBuf> {
     let shares = vec![Curve::line("", colour::VARIATIONAL, 3, shares.collect())];
     let panels = [
         Panel::new(
-            "The same move by arms of scattered friction and payload",
-            linear("time t, s"),
-            linear("height of the tip, m"),
+            "Unknown payloads leave the tips up to 4 cm off",
+            linear("time t (s)"),
+            linear("height of the tip (m)"),
             heights,
         ),
         Panel::new(
-            "How many have settled: to 1 cm, for good",
-            linear("time t, s"),
-            linear("share of the arms, %"),
+            "How many stay within 1 cm of their own end",
+            linear("time t (s)"),
+            linear("share of the arms (%)"),
             shares,
         ),
     ];

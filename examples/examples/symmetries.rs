@@ -98,7 +98,7 @@ fn main() -> Result<()> {
             start,
         )?,
         curve(
-            "radial, R(q, v) in Cartesian coordinates",
+            "radial, as R(q, v) in Cartesian coordinates",
             (colour::VARIATIONAL, Dash::Dashed),
             &Ring { radial: k, ..Ring::default() },
             &rotation,
@@ -106,7 +106,7 @@ fn main() -> Result<()> {
             start,
         )?,
         curve(
-            "radial, midpoint force",
+            "radial, as a force at midpoints",
             (colour::EULER, Dash::DashDotted),
             &Ring { radial_force: k, ..Ring::default() },
             &rotation,
@@ -114,7 +114,7 @@ fn main() -> Result<()> {
             start,
         )?,
         curve(
-            "radial, R in polar coordinates",
+            "radial, as R in polar coordinates",
             (colour::REFERENCE, Dash::Dotted),
             &PolarRing { radial: k },
             &angle,
@@ -171,7 +171,7 @@ fn curve<L: Discrete<Midpoint, 2, Scalar = f64>>(
 
 fn draw(curves: &[Curve<'static>]) -> Result<PathBuf> {
     let panel = Panel::new(
-        "Angular momentum lost under friction, k = 0.1, midpoint rule, h = 0.1",
+        "Radial friction keeps the angular momentum, other friction takes it",
         linear("time t (dimensionless)"),
         // Exact zeros stand at the floor.
         logarithmic("|J(t) − J(0)| (dimensionless)").with_floor(1e-18),

@@ -32,22 +32,27 @@ use dalembert_examples::baseline::Method;
 use indicatif::ProgressBar;
 use ring::{H, Motion, Ring, STEPS, start};
 
-/// A block of the README between fences of that kind: the first from `from` on.
+/// A block of a page between fences of that kind: the first from `from` on.
 fn block<'a>(page: &'a str, from: &str, fence: &str) -> &'a str {
     let text = &page[page.find(from).unwrap()..];
     text.split_once(fence).unwrap().1.split_once("```").unwrap().0
 }
 
 #[test]
-fn the_readme_has_the_program_and_what_it_prints() {
-    let page = include_str!("../../README.md");
-    assert_eq!(block(page, "```rust", "```rust\n"), include_str!("../examples/readme/program.rs"));
+fn first_pages_have_the_program_and_what_it_prints() {
     readme::run().unwrap();
     let printed = PRINTED.take();
-    let said = block(page, "prints", "```text\n");
-    assert_eq!(printed, said);
-    // Positive control: another motion prints something else.
-    assert_ne!(printed, said.replacen("0.", "0.1", 1));
+    let pages = [
+        (include_str!("../../README.md"), "```rust\n"),
+        (include_str!("../../runtime/src/guide/front_page.md"), "```\n"),
+    ];
+    for (page, fence) in pages {
+        assert!(page.contains(&[fence, include_str!("../examples/readme/program.rs"), "```\n"].concat()));
+        let said = block(page, "prints", "```text\n");
+        assert_eq!(printed, said);
+        // Positive control: another motion prints something else.
+        assert_ne!(printed, said.replacen("0.", "0.1", 1));
+    }
 }
 
 const RING: Ring = Ring { k: 1e-3 };

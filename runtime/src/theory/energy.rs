@@ -2,6 +2,7 @@
 
 mod of_run;
 
+use core::fmt;
 use core::iter::Sum;
 use core::ops::{Add, AddAssign};
 
@@ -59,6 +60,11 @@ pub use of_run::EnergyEntries;
 /// let ledger: EnergyLedger<f64> = run.ledger().take(100).sum::<Result<_, _>>()?;
 /// // L and R of second degree: the midpoint rule loses what friction takes, and nothing else.
 /// assert!(ledger.dissipated > 0.2 && ledger.remainder().abs() < 1e-14);
+/// let text = format!("{:.2}", EnergyLedger { change: -0.5, dissipated: 0.25, work: 0.0 });
+/// assert_eq!(
+///     text,
+///     "energy changed by -5.00e-1: friction took 2.50e-1, forces brought 0.00e0, the method -2.5e-1"
+/// );
 /// # Ok::<(), dalembert::StepError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -113,6 +119,19 @@ impl<S: Scalar> EnergyLedger<S> {
     #[must_use]
     pub fn remainder(&self) -> S {
         self.change + self.dissipated - self.work
+    }
+}
+
+impl<S: Scalar + fmt::LowerExp> fmt::Display for EnergyLedger<S> {
+    /// One line, with as many digits as the formatter asks for, or four.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (change, friction, work, rest) = (self.change, self.dissipated, self.work, self.remainder());
+        let digits = f.precision().unwrap_or(4);
+        write!(
+            f,
+            "energy changed by {change:.digits$e}: friction took {friction:.digits$e}, forces brought \
+             {work:.digits$e}, the method {rest:.1e}"
+        )
     }
 }
 
