@@ -86,8 +86,8 @@ impl<S: Scalar, const M: usize> Elements<'_, S, M> {
         None
     }
 
-    /// What is left to add to the forces that hold, so that they take away `slip` from what sticks: found of
-    /// what their impulses leave, where elements far apart in strength no longer round each other.
+    /// A correction of the forces that hold, which takes away `slip` from what sticks. Of what their impulses
+    /// leave the slip is small, and elements far apart in strength no longer round each other.
     pub(super) fn rest(&self, sticks: &[bool; M], slip: &SVector<S, M>) -> Option<SVector<S, M>> {
         let mut rows: SMatrix<S, M, M> = SMatrix::identity();
         let mut left: SVector<S, M> = nalgebra::zero();
