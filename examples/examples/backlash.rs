@@ -160,10 +160,7 @@ fn free(
     }
     motion.rests.push(run.time());
     let State { q, p } = run.state();
-    let mut next =
-        Pressed.driven([0.0]).by(Gauss::<3>, H).run_with_inputs(State { q: vector![q[0]], p: vector![p[0]] });
-    next.restart_at(run.time(), *next.state());
-    Ok(Phase::Pressed(next))
+    Ok(Phase::Pressed(run.handed_to(State { q: vector![q[0]], p: vector![p[0]] })))
 }
 
 /// The motor moves, until the tick or until its teeth no longer press the load onto the stop.
@@ -187,9 +184,7 @@ fn pressed(
     motion.releases.push(event.time);
     motion.angles.push((event.time, [event.state.q[0], STOP]));
     let start = State { q: vector![event.state.q[0], STOP], p: vector![event.state.p[0], 0.0] };
-    let mut next = Free.driven([0.0]).by(Gauss::<3>, H).run_with_inputs(start);
-    next.restart_at(event.time, start);
-    Ok(Phase::Free(next))
+    Ok(Phase::Free(run.handed_to(start)))
 }
 
 fn draw(motion: &Motion) -> Result<std::path::PathBuf> {

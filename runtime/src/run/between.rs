@@ -292,6 +292,14 @@ impl<T: Restartable<N>, const N: usize> Dense<'_, T, N> {
     }
 }
 
+impl<'a, L: Flow<M, N>, M, const N: usize> Dense<'_, Trajectory<'a, L, M, N>, N> {
+    /// Leaves the grid, as [`restart_at`](Self::restart_at), and the system.
+    pub(super) fn restart_with(&mut self, system: &'a L, state: State<L::Scalar, N>) {
+        self.run.restart_with(system, state);
+        self.start = None;
+    }
+}
+
 impl<T: Divisible<N> + ?Sized, const N: usize> Iterator for Dense<'_, T, N> {
     type Item = Result<Step<T::Scalar, N>, StepError>;
 

@@ -181,6 +181,18 @@ where
         *self = Self::resume(at);
     }
 
+    /// A run with inputs of another system, of whatever type and number of coordinates, that goes on from
+    /// `state` at the present time by the method and the step size of this one. Systems of the type of this
+    /// one, with other fields, it is given itself.
+    #[must_use]
+    pub fn handed_to<T, const K: usize>(&self, state: State<T::Scalar, K>) -> DrivenTrajectory<T, M, K>
+    where
+        T: Flow<M, K, Scalar = V::Scalar>,
+    {
+        let Checkpoint { step_size, .. } = self.at;
+        DrivenTrajectory::resume(Checkpoint { state, step_size, origin: self.time(), steps: 0 })
+    }
+
     /// State, step size and clock as they are now. A run that is resumed from them solves its first steps
     /// without a guess, so that it may differ from this one by rounding, which
     /// [`checkpoint`](Self::checkpoint) avoids.

@@ -249,6 +249,21 @@ where
         }
     }
 
+    /// Goes on from `state` where `go_on` takes the run, at its present time.
+    fn restart_by(&mut self, state: State<T::Scalar, N>, go_on: impl FnOnce(&mut Dense<'t, T, N>, f64)) {
+        let time = self.run().time();
+        if self.ended {
+            self.found.iter_mut().flatten().for_each(|found| (found.time, found.state) = (time, state));
+        } else {
+            (self.happened, self.came_from) = ([false; K], [0.0; K]);
+            self.found = [None; ROOTS];
+        }
+        go_on(&mut self.dense, time);
+        (self.present, self.earlier, self.velocity) = (None, None, None);
+        (self.step, self.ended) = (None, false);
+        self.restarts = self.restarts.saturating_add(1);
+    }
+
     /// Takes a step, unless the watch has ended; ends it where there is none.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take_or_end(&mut self) -> Option<Result<Option<Step<T::Scalar, N>>, EventError>> {
@@ -474,17 +489,19 @@ where
     /// switch. Events that happened there do not happen again at once; others at that time that have not been
     /// asked for come next, and of this state.
     pub fn restart(&mut self, state: State<T::Scalar, N>) {
-        let time = self.run().time();
-        if self.ended {
-            self.found.iter_mut().flatten().for_each(|found| (found.time, found.state) = (time, state));
-        } else {
-            (self.happened, self.came_from) = ([false; K], [0.0; K]);
-            self.found = [None; ROOTS];
-        }
-        self.dense.restart_at(time, state);
-        (self.present, self.earlier, self.velocity) = (None, None, None);
-        (self.step, self.ended) = (None, false);
-        self.restarts = self.restarts.saturating_add(1);
+        self.restart_by(state, |dense, time| dense.restart_at(time, state));
+    }
+}
+
+impl<'t, 'a, L, M, G, const N: usize, const K: usize> Watch<'t, Trajectory<'a, L, M, N>, G, N, K>
+where
+    L: Flow<M, N>,
+    G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
+{
+    /// As [`restart`](Self::restart), by another system of the same type
+    /// ([`Trajectory::restart_with`]), which the functions are then asked of.
+    pub fn restart_with(&mut self, system: &'a L, state: State<L::Scalar, N>) {
+        self.restart_by(state, |dense, _| dense.restart_with(system, state));
     }
 }
 

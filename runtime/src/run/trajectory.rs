@@ -127,6 +127,53 @@ where
         self.restart_at(self.time(), state);
     }
 
+    /// Goes on by another system of the same type, which has other fields, from `state` at the present time:
+    /// a switch, a contact, a cut-off. As after [`restart`](Self::restart) the steps that follow are counted
+    /// from here, by the step size of the run.
+    ///
+    /// The clock goes on. A view that has a time has it at the time 0 of the run, as the first one:
+    /// `system.at_time(t)` with the t that the run began with.
+    ///
+    /// ```
+    /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system]
+    /// fn cart(q: [f64; 1], v: [f64; 1], pull: f64) -> f64 {
+    ///     0.5 * v[0] * v[0] + pull * q[0]
+    /// }
+    /// let (on, off) = (Cart { pull: 2.0 }, Cart { pull: 0.0 });
+    /// let mut run = on.by(Midpoint, 0.25).run(State::from_velocity(&on, [0.0], [0.0])?);
+    /// // The motor is cut off at a velocity of 3, t = 1.5.
+    /// let event = run.watch(|at| [at.velocity()[0] - 3.0]).terminal([true]).next().unwrap()?;
+    /// run.restart_with(&off, event.state);
+    /// run.until(2.0).try_for_each(|step| step.map(drop))?;
+    /// assert!((run.state().q[0] - (0.5 * 2.0 * 1.5 * 1.5 + 3.0 * 0.5)).abs() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn restart_with(&mut self, system: &'a L, state: State<L::Scalar, N>) {
+        self.system = system;
+        self.restart(state);
+    }
+
+    /// A run of another system, of whatever type and number of coordinates, that goes on from `state` at the
+    /// present time by the method and the step size of this one: the next phase, in which a constraint holds
+    /// a coordinate, or there is one less. This run stays where it is, so that a later phase may
+    /// [restart](Self::restart_at) it. The guide has
+    /// [programs](crate::guide::control#phases).
+    ///
+    /// The clock goes on, as in [`restart_with`](Self::restart_with). Where steps follow a time scale, the
+    /// new run begins with steps of one size, the last one's.
+    pub fn handed_to<'b, T, const K: usize>(
+        &self,
+        system: &'b T,
+        state: State<T::Scalar, K>,
+    ) -> Trajectory<'b, T, M, K>
+    where
+        T: Flow<M, K, Scalar = L::Scalar>,
+    {
+        Trajectory { system, run: self.run.handed_to(state), pace: None }
+    }
+
     /// Goes on from another state at another time: after a motion has rested for a while, for instance.
     pub fn restart_at(&mut self, time: f64, state: State<L::Scalar, N>) {
         self.run.restart_at(time, state);
