@@ -47,6 +47,7 @@ pub(crate) use border::BorderParameters;
 pub use closed_form::ClosedForm;
 pub(crate) use closed_form::{ByFormula, Formulas};
 pub use constraints::Constraints;
+pub(crate) use constraints::reactions_at;
 pub use defect::Defect;
 pub(crate) use defect::Pairing;
 pub use discrete::Discrete;

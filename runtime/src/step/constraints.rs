@@ -26,6 +26,7 @@ pub(super) mod complement;
 mod equation;
 pub(super) mod independent;
 mod inertia;
+mod instant;
 mod linearized;
 mod nearest;
 mod reactions;
@@ -43,6 +44,7 @@ use crate::system::Constrained;
 pub use bordered::Bordered;
 use bordered::rounding_of_reactions;
 use equation::OnConstraints;
+pub(crate) use instant::reactions_at;
 pub use linearized::Linearized;
 use nearest::{held, require_on};
 

@@ -1,6 +1,7 @@
 //! Steps on holonomic constraints, beside reference steps of an independent program in 40 digits, exact
 //! motions and the same systems in minimal coordinates.
 
+mod at_an_instant;
 mod derivatives;
 mod of_velocity;
 mod prescribed;

@@ -5,8 +5,8 @@ use core::fmt;
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
-use crate::step::State;
-use crate::system::Lagrangian;
+use crate::step::{State, reactions_at};
+use crate::system::{ActingForce, Constrained, Lagrangian};
 
 /// A system at one moment: q, and what is asked of it besides.
 #[derive(Clone, Copy)]
@@ -81,6 +81,19 @@ where
                 })
             }
         }
+    }
+
+    /// The multipliers of the constraints then, [`State::reactions`]; NaN where there are none. A constraint
+    /// no longer holds where its own vanishes, if it is a stop, which pushes and does not pull.
+    #[must_use]
+    pub fn reactions<const M: usize>(&self) -> SVector<L::Scalar, M>
+    where
+        L: Constrained<N, M> + ActingForce<N>,
+    {
+        let (q, v) = (&self.q, &self.velocity());
+        self.system
+            .later(L::Scalar::constant(self.time - self.since), |system| reactions_at(system, q, v))
+            .unwrap_or_else(|_| SVector::repeat(L::Scalar::constant(f64::NAN)))
     }
 
     /// Both as a state.
