@@ -20,6 +20,7 @@ mod present;
 mod sample;
 mod scaled_time;
 mod splitting;
+pub mod stick_slip;
 pub mod tolerance;
 mod trajectory;
 

@@ -62,6 +62,7 @@ pub use flow::{BoundedFlow, Flow, Memory};
 pub use force_work::{EnergyExchange, ForceWork};
 pub use free::Free;
 pub use friction::Friction;
+pub(crate) use friction::{Slip, Slipping};
 pub use fused::Fused;
 pub use in_lanes::{DiscreteInLanes, FlowInLanes};
 pub(crate) use in_lanes::{Ends, KeptOf, LaneRuns, MemoryInLanes};

@@ -67,7 +67,8 @@ use crate::system::{Driven, SmoothRayleigh};
 /// from the order.
 ///
 /// Not self-adjoint. A, B are those of what sticks and what slides; at the limit of the two there is none
-/// ([`StepError::AtLimitOfFriction`]).
+/// ([`StepError::AtLimitOfFriction`]). When each element comes to stick and begins to slip is told by
+/// [`stick_slip`](crate::Trajectory::stick_slip).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Proximal;
 

@@ -21,6 +21,7 @@ mod end;
 mod equation;
 mod linearized;
 mod set;
+mod slipping;
 
 use nalgebra::{SMatrix, SVector};
 
@@ -30,9 +31,10 @@ use crate::step::{
     State, StateBy, Step, StepError, step_by, step_within_by,
 };
 use crate::system::DryFriction;
-use end::{sticking, velocity};
+use end::{End, sticking, velocity};
 use equation::WithFriction;
 use linearized::LinearizedFriction;
+pub(crate) use slipping::{Slip, Slipping};
 
 /// Kinks of R with M components in all, [`DryFriction`]: the border of a step with friction that holds.
 #[derive(Clone, Copy, Debug)]
@@ -52,22 +54,34 @@ where
     if !L::IS_PROPORTIONAL {
         equation.require_convex(&Segment { q0: state.q, v: step.velocity, h })?;
     }
-    let half = h * L::Scalar::constant(0.5);
     let (mut v, mut w) = (step.velocity, step.state.p);
     if let Some(held) = equation.held(&Segment { q0: state.q, v, h })
         && held.sticks.contains(&true)
     {
+        let half = h * L::Scalar::constant(0.5);
         let middle = state.q + v * half;
         v = system.later(half, |system| sticking(system, &middle, &v, &held));
         w = system.momenta(&Segment { q0: state.q, v, h }).p1;
     }
-    let (middle, q1) = (state.q + v * half, state.q + v * h);
-    let p1 = system
-        .later(half, |at_middle| {
-            at_middle.later(half, |at_end| velocity(at_end, &q1, (at_middle, &middle, h), &w, &v))
-        })?
-        .p;
+    let p1 = end(system, &Segment { q0: state.q, v, h }, &w)?.p;
     Step::completed(state, h, v, &Momenta { p0: state.p, p1 }, step.report)
+}
+
+/// The velocity at the end of a segment that is solved for, where p1 would be `w` without friction.
+fn end<L, const N: usize, const M: usize>(
+    system: &L,
+    segment: &Segment<L::Scalar, N>,
+    w: &SVector<L::Scalar, N>,
+) -> Result<End<L::Scalar, N, M>, StepError>
+where
+    L: DryFriction<N, M>,
+{
+    let Segment { q0, v, h } = segment;
+    let half = *h * L::Scalar::constant(0.5);
+    let (middle, q1) = (q0 + v * half, q0 + v * *h);
+    system.later(half, |at_middle| {
+        at_middle.later(half, |at_end| velocity(at_end, &q1, (at_middle, &middle, *h), w, v))
+    })
 }
 
 impl<L, R, const N: usize, const M: usize> Border<L, R, N> for Friction<M>

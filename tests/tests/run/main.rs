@@ -24,6 +24,7 @@ mod scaled_time;
 mod slack;
 mod splitting;
 mod splitting_conditions;
+mod stick_slip;
 mod stopped;
 mod timed_lanes;
 mod timed_splitting;
