@@ -18,6 +18,7 @@ mod midpoint_lanes;
 mod on_constraints;
 mod one_run;
 mod period;
+mod phases;
 mod random_events;
 mod saved_runs;
 mod scaled_time;
