@@ -538,3 +538,29 @@ class SphericalPendulum(System):
         """Drag of the air, N s/m."""
     @c.setter
     def c(self, value: float) -> None: ...
+
+class Blocks(System):
+    """Three blocks in a row between two walls, joined by springs, on a floor with dry and viscous friction; q are their
+    displacements in m."""
+
+    def __new__(cls, m: _Numbers, k: _Numbers, mu: _Numbers, c: float) -> Self: ...
+    @property
+    def m(self) -> _Array:
+        """Masses, kg."""
+    @m.setter
+    def m(self, value: _Numbers) -> None: ...
+    @property
+    def k(self) -> _Array:
+        """Stiffness of the springs, from wall to wall, N/m."""
+    @k.setter
+    def k(self, value: _Numbers) -> None: ...
+    @property
+    def mu(self) -> _Array:
+        """Dry friction, N."""
+    @mu.setter
+    def mu(self, value: _Numbers) -> None: ...
+    @property
+    def c(self) -> float:
+        """Viscous friction, N s/m."""
+    @c.setter
+    def c(self, value: float) -> None: ...

@@ -16,6 +16,7 @@ pub mod reference;
 pub mod rounded;
 pub mod sections;
 pub mod simpson;
+pub mod sliders;
 pub mod systems;
 
 /// What crates.io shows of `dalembert`: its code is run.

@@ -44,7 +44,7 @@ firmware [MACHINE]      steps on emulated microcontrollers: m4f, m7, m33, rv, or
 no-panic [LEVEL]        the proof that no step panics, at opt-level 3, s, or both
 slurm [TRIES]           an ensemble as an array of Slurm, of which tasks are requeued and killed; so often beside a living one
 fuzz [SECONDS] [keep]   fuzzes each target for 60 s, or as many as said; `keep` renews the corpus
-bench casadi|python     measures beside CasADi, or beside libraries of Python, and writes the page
+bench casadi|python|friction   measures beside CasADi, libraries of Python, or SciPy, and writes the page
 publish [all]           what must hold before the crates are published; `all` takes longer
 
 A task that cannot have its tools says so and checks nothing; it fails then where the variable CI is set.
@@ -93,6 +93,7 @@ fn run() -> Result<()> {
         ["fuzz", ref rest @ ..] => fuzz::run(rest)?,
         ["bench", "casadi"] => bench::casadi::run()?,
         ["bench", "python"] => bench::python::run()?,
+        ["bench", "friction"] => bench::python::friction()?,
         ["publish"] => publish::run(false)?,
         ["publish", "all"] => publish::run(true)?,
         _ => bail!("no task is `{}`: cargo xtask --help lists them", words.join(" ")),

@@ -1,5 +1,6 @@
 //! Systems to try from Python, and those of the gallery.
 
+mod blocks;
 mod cart_pole;
 mod double_pendulum;
 mod henon_heiles;
@@ -7,6 +8,7 @@ mod oscillator;
 mod ring;
 mod spherical_pendulum;
 
+use blocks::Blocks;
 use cart_pole::CartPole;
 use dalembert_python::parameters;
 use double_pendulum::DoublePendulum;
@@ -22,4 +24,5 @@ dalembert_python::module!(dalembert_scenes {
     ShakenOscillator,
     CartPole,
     SphericalPendulum,
+    Blocks,
 });

@@ -2,6 +2,7 @@
 
 mod derivatives;
 mod many;
+mod sliders;
 mod verdicts;
 
 use dalembert::nalgebra::{Vector2, vector};

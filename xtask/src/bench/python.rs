@@ -1,5 +1,6 @@
-//! One study by dalembert, heyoka, pydiffsol and scipy, each as its users would write it:
-//! `docs/evidence/escape-times.md`. Some twenty minutes, most of them heyoka's and the module's building.
+//! Studies by dalembert and by libraries of Python, each as its users would write it:
+//! `docs/evidence/escape-times.md`, of some twenty minutes, most of them heyoka's and the module's building, and
+//! `docs/evidence/friction-beside-scipy.md`.
 
 use anyhow::{Context, Result};
 use xshell::cmd;
@@ -10,12 +11,24 @@ use crate::{project, python_environment};
 /// The packages whose versions the page names.
 const NAMED: [&str; 4] = ["heyoka", "numpy", "pydiffsol", "scipy"];
 
-/// Measures, and writes the page. Needs Python 3.11.
+/// Measures escape times, and writes their page. Needs Python 3.11.
 pub fn run() -> Result<()> {
+    page("", &["heyoka", "pydiffsol", "scipy"], "escape-times")
+}
+
+/// Measures blocks that dry friction brings to rest, and writes their page. Needs Python 3.11.
+pub fn friction() -> Result<()> {
+    page("friction", &["numpy", "scipy"], "friction-beside-scipy")
+}
+
+/// The page of the study of that folder of `measure/benches/python`, beside these packages.
+fn page(folder: &str, beside: &[&str], name: &str) -> Result<()> {
     let shell = project::shell()?;
-    shell.change_dir("measure/benches/python");
+    let module = project::root().join("bindings/python");
+    let evidence = project::root().join("docs/evidence").join(name).with_extension("md");
+    shell.change_dir(project::root().join("measure/benches/python").join(folder));
     let work = shell.create_temp_dir()?;
-    let packages = ["heyoka", "pydiffsol", "scipy", "../../../bindings/python"];
+    let packages = [beside, &[module.to_str().context("a path")?]].concat();
     let programs = python_environment::make(&shell, work.path(), &packages)?;
     let (python, pip) = (programs.join("python"), programs.join("pip"));
     let tables = cmd!(shell, "{python} study.py").output()?.stdout;
@@ -27,7 +40,7 @@ pub fn run() -> Result<()> {
         shell.read_file("reading.md")?,
         format!("\n{versions}; {python}, {}.\n", processor(&shell)?),
     ];
-    Ok(shell.write_file("../../../docs/evidence/escape-times.md", page.concat())?)
+    Ok(shell.write_file(evidence, page.concat())?)
 }
 
 /// The versions that the page names, of a list of `name==version`.
