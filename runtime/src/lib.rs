@@ -414,7 +414,7 @@ pub use attributes::rayleigh_system;
 /// ```
 pub use attributes::differentiable;
 
-pub use numbers::Elementary;
+pub use numbers::{Characteristic, Elementary, Interpolation, Table, TableError, TableSlice};
 use numbers::{functions, names};
 #[doc(inline)]
 pub use rules::{Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, Proximal, Trapezoidal};

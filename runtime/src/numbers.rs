@@ -5,6 +5,7 @@
 
 mod anchors;
 mod arrays;
+mod characteristic;
 pub(crate) mod comparison;
 mod compensated;
 pub(crate) mod derivatives;
@@ -20,9 +21,11 @@ pub(crate) mod random;
 mod scalar;
 mod singular;
 pub(crate) mod slices;
+mod table;
 
 pub use anchors::{Angle, Reciprocal};
 pub(crate) use arrays::{Functions, Vectors, product_plus};
+pub use characteristic::Characteristic;
 pub(crate) use compensated::{Compensated, CompensatedMembers};
 pub use derivatives::{
     CancellingTerms, CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, Variations,
@@ -36,3 +39,4 @@ pub use members::{Blank, MemberVector, Members};
 pub(crate) use precision::Precision;
 pub use scalar::Scalar;
 pub use singular::Singular;
+pub use table::{Interpolation, Table, TableError, TableSlice};

@@ -31,6 +31,7 @@ mod semantics;
 mod singular;
 mod statements;
 mod structure;
+mod tables;
 mod three_engines;
 mod user_functions;
 
