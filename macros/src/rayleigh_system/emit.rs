@@ -6,6 +6,7 @@
 //!
 //! Code on lanes has the text of code on numbers, but for what `lanes.rs` writes otherwise.
 
+mod characteristic;
 mod expression;
 mod inlined;
 mod lanes;
@@ -171,6 +172,7 @@ impl Writing<'_> {
                 | Operation::Input(_)
                 | Operation::Parameter(_) => true,
                 Operation::Select(_, a, b) => writer.typed[a.index()] || writer.typed[b.index()],
+                Operation::Characteristic(..) => true,
                 operation if operation.receiver().is_some() => true,
                 operation => operation.arguments().any(|argument| writer.typed[argument.index()]),
             };
@@ -207,7 +209,7 @@ impl Writing<'_> {
                 && writer.anchor(node).is_none()
                 && !needs_type
                 && uses[node.index()] <= 1
-                && !matches!(operation, Operation::Select(..))
+                && !matches!(operation, Operation::Select(..) | Operation::Characteristic(..))
                 && !matches!(operation, Operation::Parameter(index) if graph.parameter(index).is_apart())
                 && (graph.name(node).is_none() || matches!(operation, Operation::Parameter(_)));
             let depth = operation.arguments().map(|argument| depths[argument.index()] + 1).max().unwrap_or(0);

@@ -9,6 +9,7 @@
 mod algebra;
 mod angles;
 mod before;
+mod characteristic;
 mod combination;
 mod factor;
 mod fused;
@@ -32,6 +33,7 @@ use super::syntax::regrouped;
 
 pub use super::functions::{Function, PairFunction, Predicate};
 pub use before::before_the_run;
+pub use characteristic::Curve;
 pub use operation::{Comparison, Operation};
 
 /// An expression of a [`Graph`]. Arguments are smaller than what is made of them.
@@ -318,8 +320,14 @@ impl Graph {
     }
 
     fn placed(&mut self, tokens: TokenStream, is_entry: bool, is_listed: bool) -> Node {
+        let index = self.place(tokens, is_entry, is_listed);
+        self.node(Operation::Parameter(index))
+    }
+
+    /// The place of the parameter that is written as these tokens.
+    fn place(&mut self, tokens: TokenStream, is_entry: bool, is_listed: bool) -> usize {
         let text = tokens.to_string();
-        let index = self.places.get(&text).copied().unwrap_or_else(|| {
+        self.places.get(&text).copied().unwrap_or_else(|| {
             self.places.insert(text.clone(), self.parameters.len());
             self.parameters.push(Parameter {
                 tokens,
@@ -331,8 +339,7 @@ impl Graph {
                 taken_for: None,
             });
             self.parameters.len() - 1
-        });
-        self.node(Operation::Parameter(index))
+        })
     }
 
     /// The parameter `self.m` for the expression `m`, from now on one that derivatives are taken by.

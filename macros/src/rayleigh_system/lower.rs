@@ -7,6 +7,7 @@
 
 mod access;
 mod call;
+mod characteristic;
 mod choice;
 mod class;
 mod conversion;

@@ -7,6 +7,7 @@
 
 #![allow(deprecated, reason = "some cases are left to dual numbers, which is warned of")]
 
+mod characteristics;
 mod constants;
 mod control_flow;
 mod conversions;

@@ -144,6 +144,7 @@ impl Deriving<'_> {
                 let vanishes = self.graph.constant_value(b).is_some_and(|exponent| exponent > 0.0);
                 if vanishes { of(a) } else { of(a).not_vanishing() }
             }
+            Operation::Characteristic(_, x) => of(x).unless_nonzero(Nonzero),
             Operation::Pair(_, a, b) => of(a).max(of(b)).unless_nonzero(Nonzero),
             // An input; truth values have no size.
             _ => Nonzero,

@@ -70,6 +70,16 @@ pub fn partials(graph: &mut Graph, node: Node, operation: Operation, order: Orde
             }
         }
         Operation::Pair(function, a, b) => of_pair(graph, function, a, b, node),
+        Operation::Characteristic(curve, x) => {
+            let first = graph.slope(curve, x);
+            let second = match graph.operation(first) {
+                Operation::Characteristic(slope, _) if order == Order::Second => {
+                    vec![(x, x, graph.slope(slope, x))]
+                }
+                _ => Vec::new(),
+            };
+            Partials { first: vec![(x, first)], second }
+        }
         Operation::Power(x, n) => {
             let exponent = f64::from(n);
             let (first, second) = (graph.power(x, n.saturating_sub(1)), graph.power(x, n.saturating_sub(2)));

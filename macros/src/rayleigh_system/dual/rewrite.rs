@@ -13,6 +13,7 @@
 //! | `i as usize`, `i % n` | `dual::integer::<_, usize>(i)`, `dual::remainder(i % n)`: for integers alone |
 //! | `f64::from(1.5_f32 * self.c)` | `D::real(f64::from(1.5_f32 * self.c))`: constants alone |
 //! | `self.k.curve()`, of a trait or a struct of the user's | `D::lift(self.k.curve())`: of constants alone |
+//! | `self.drag.at(x)` | `dual::at(&self.drag, x)` |
 //! | `self.k.floor()`, `self.k % 2.0` | `D::lift(self.k.floor())`, `D::lift(self.k % 2.0)`: constants alone |
 
 mod call;
@@ -214,7 +215,10 @@ impl VisitMut for Rewriter<'_> {
             },
             Expr::MethodCall(call) => match self.of_constants(call) {
                 Some(replacement) => *expression = replacement,
-                None => self.method_call(call, true),
+                None => match self.characteristic(call) {
+                    Some(replacement) => *expression = replacement,
+                    None => self.method_call(call, true),
+                },
             },
             Expr::Call(call) => match self.conversion(call) {
                 Some(replacement) => *expression = replacement,

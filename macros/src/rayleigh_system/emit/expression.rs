@@ -114,6 +114,9 @@ impl Writer<'_> {
             let (sine, cosine) = if is_sine { (own, its) } else { (its, own) };
             return quote!(let (#sine, #cosine) = #pair;);
         }
+        if let Operation::Characteristic(curve, x) = self.graph.operation(node) {
+            return self.characteristic(curve, x, nodes);
+        }
         let value = match self.anchor(node) {
             Some(anchor) => {
                 let value = self.starting_at(anchor);
@@ -225,6 +228,7 @@ impl Writer<'_> {
                 let b = self.expression(b).tokens;
                 (quote!(#a.#name(#b)), Binding::Atom)
             }
+            Operation::Characteristic(curve, x) => (self.derivative_of(curve, x), Binding::Atom),
             Operation::Power(x, n) => {
                 let (x, n) = (self.called_on(x, "powi"), Literal::i32_unsuffixed(n));
                 (quote!(#x.powi(#n)), Binding::Atom)

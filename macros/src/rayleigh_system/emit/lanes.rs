@@ -10,7 +10,7 @@ use super::expression::{Binding, Writer, Written};
 
 impl Writer<'_> {
     /// A name of the runtime, noted for the imports.
-    fn runtime(&self, name: &'static str) -> Ident {
+    pub(super) fn runtime(&self, name: &'static str) -> Ident {
         self.runtime.borrow_mut().insert(name);
         format_ident!("{name}")
     }
@@ -28,7 +28,7 @@ impl Writer<'_> {
     }
 
     /// The value in lanes, as what a method is called on.
-    fn lane_receiver(&self, node: Node) -> TokenStream {
+    pub(super) fn lane_receiver(&self, node: Node) -> TokenStream {
         if self.is_lanes[node.index()] {
             self.expression(node).within(Binding::Atom)
         } else {

@@ -61,6 +61,7 @@ fn described(graph: &Graph, node: Node, locals: &[Option<Ident>]) -> Option<Stri
     }
     match graph.operation(node) {
         Operation::Function(function, x) => Some(format!("{}_{}", function.name(), short(graph, x, locals)?)),
+        Operation::Characteristic(curve, _) => graph.name_of_curve(curve),
         Operation::Multiply(a, b) if a == b => Some(format!("{}_squared", short(graph, a, locals)?)),
         _ => None,
     }

@@ -15,6 +15,7 @@ pub fn before_the_run(graph: &Graph, nodes: &[Node], taken: &[&str]) -> (Vec<boo
                 let is_taken = first.is_some_and(|word| taken.contains(&word.as_str()));
                 (!is_taken && !graph.is_time(operation), parameter.reads_self())
             }
+            Operation::Characteristic(curve, _) => (true, graph.parameter(curve.parameter).reads_self()),
             Operation::Input(_) => (true, true),
             Operation::Coordinate(_) | Operation::Velocity(_) => (false, false),
             _ => (true, false),

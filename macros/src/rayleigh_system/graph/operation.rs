@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::{Function, Node, PairFunction, Predicate};
+use super::{Curve, Function, Node, PairFunction, Predicate};
 
 /// An operation on earlier nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -25,6 +25,7 @@ pub enum Operation {
     Negate(Node),
     Function(Function, Node),
     Pair(PairFunction, Node, Node),
+    Characteristic(Curve, Node),
     Power(Node, i32),
     Select(Node, Node, Node),
     /// a b + c, rounded once.
@@ -84,6 +85,7 @@ impl Operation {
             Self::Negate(a) => Self::Negate(of(a)),
             Self::Function(function, a) => Self::Function(function, of(a)),
             Self::Pair(function, a, b) => Self::Pair(function, of(a), of(b)),
+            Self::Characteristic(curve, a) => Self::Characteristic(curve, of(a)),
             Self::Power(a, n) => Self::Power(of(a), n),
             Self::Select(condition, a, b) => Self::Select(of(condition), of(a), of(b)),
             Self::MultiplyAdd(a, b, c) => Self::MultiplyAdd(of(a), of(b), of(c)),
@@ -102,9 +104,12 @@ impl Operation {
             | Self::Input(_)
             | Self::Parameter(_)
             | Self::Constant(_) => [None; 3],
-            Self::Negate(a) | Self::Function(_, a) | Self::Power(a, _) | Self::Is(_, a) | Self::Not(a) => {
-                [Some(a), None, None]
-            }
+            Self::Negate(a)
+            | Self::Function(_, a)
+            | Self::Characteristic(_, a)
+            | Self::Power(a, _)
+            | Self::Is(_, a)
+            | Self::Not(a) => [Some(a), None, None],
             Self::Add(a, b)
             | Self::Subtract(a, b)
             | Self::Multiply(a, b)

@@ -35,6 +35,11 @@ impl Graph {
         if text.chars().count() > LONGEST { ("…".to_owned(), Binding::Whole) } else { (text, binding) }
     }
 
+    fn written_out(&self, parameter: usize) -> String {
+        let text = self.parameter(parameter).tokens.to_string();
+        text.replace(" . ", ".").replace(" :: ", "::").replace(" [", "[")
+    }
+
     fn operation_spelled(&self, node: Node, is_function: bool, left: u32) -> (String, Binding) {
         let bound = |node: Node, least: Binding| {
             let (text, binding) = self.argument(node, is_function, left);
@@ -52,10 +57,7 @@ impl Graph {
             Operation::Coordinate(i) => (format!("q[{i}]"), Binding::Whole),
             Operation::Velocity(i) => (format!("v[{i}]"), Binding::Whole),
             Operation::Input(i) => (format!("u[{i}]"), Binding::Whole),
-            Operation::Parameter(index) => {
-                let text = self.parameter(index).tokens.to_string();
-                (text.replace(" . ", ".").replace(" :: ", "::").replace(" [", "["), Binding::Whole)
-            }
+            Operation::Parameter(index) => (self.written_out(index), Binding::Whole),
             Operation::Constant(bits) => {
                 let value = f64::from_bits(bits);
                 let binding = if value.is_sign_negative() { Binding::Sign } else { Binding::Whole };
@@ -68,6 +70,10 @@ impl Graph {
             Operation::Negate(a) => (format!("-{}", bound(a, Binding::Whole)), Binding::Sign),
             Operation::Function(function, x) => method(x, function.name(), &[]),
             Operation::Pair(function, x, y) => method(x, function.name(), &[y]),
+            Operation::Characteristic(curve, x) => {
+                let primes = "′".repeat(curve.order.into());
+                (format!("{}.at{primes}({})", self.written_out(curve.parameter), plain(x)), Binding::Whole)
+            }
             Operation::Power(x, n) => (format!("{}.powi({n})", bound(x, Binding::Whole)), Binding::Whole),
             Operation::MultiplyAdd(x, a, b) => method(x, "mul_add", &[a, b]),
             _ => ("…".to_owned(), Binding::Whole),

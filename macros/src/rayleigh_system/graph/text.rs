@@ -45,6 +45,10 @@ impl Graph {
             (Operation::Negate(_), [a]) => quote!((-#a)),
             (Operation::Function(function, _), [x]) => method(function.name(), x, &[]),
             (Operation::Pair(function, ..), [x, y]) => method(function.name(), x, std::slice::from_ref(y)),
+            (Operation::Characteristic(curve, _), [x]) if curve.order == 0 => {
+                let of = self.parameter(curve.parameter).operand();
+                quote!(#of.at(#x))
+            }
             (Operation::Power(_, n), [x]) => {
                 let n = Literal::i32_unsuffixed(n);
                 quote!(#x.powi(#n))

@@ -82,6 +82,14 @@ impl Lowering<'_> {
                 }
                 self.integer_method(method, integer, &arguments)
             }
+            Value::Written(written) if method == "at" && is_place(&arguments) => {
+                self.characteristic(method, &written, arguments)
+            }
+            Value::Chosen(chosen) if method == "at" && is_place(&arguments) => {
+                self.distribute(method, &chosen, |this, receiver| {
+                    this.value_method(method, receiver, arguments.clone(), None)
+                })
+            }
             Value::Written(written) => match self.written_method(method, &written, &arguments)? {
                 Some(value) => Ok(value),
                 None if jumps(method) => self.rounded(method, Value::Written(written), &arguments),
@@ -210,6 +218,11 @@ impl Lowering<'_> {
         };
         Ok(Value::Real(node))
     }
+}
+
+/// Whether the arguments are one number that a characteristic can be taken at, no index.
+fn is_place(arguments: &[Value]) -> bool {
+    matches!(arguments, [Value::Real(_) | Value::Written(_) | Value::Chosen(_)])
 }
 
 /// Whether floating-point numbers have a method of that name, here or over dual numbers.

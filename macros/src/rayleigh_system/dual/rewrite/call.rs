@@ -1,7 +1,7 @@
 //! Calls: of functions and methods that have twins, and of those of the standard library.
 
 use syn::visit_mut::VisitMut;
-use syn::{Expr, ExprCall, ExprMethodCall, Ident, Path, parse_quote};
+use syn::{Expr, ExprCall, ExprMethodCall, Ident, Path, parse_quote, parse_quote_spanned};
 
 use super::cast::is_from;
 use super::{Rewriter, over};
@@ -50,6 +50,16 @@ impl Rewriter<'_> {
                 _ => self.visit_expr_mut(argument),
             }
         }
+    }
+
+    /// `self.drag.at(x)` → `dual::at(&self.drag, x)`, of a characteristic that a field or constant is.
+    pub fn characteristic(&mut self, call: &mut ExprMethodCall) -> Option<Expr> {
+        let is_one = call.method == "at" && call.args.len() == 1 && self.is_constant(&call.receiver);
+        is_one.then(|| {
+            let (receiver, x) = (call.receiver.clone(), &mut call.args[0]);
+            self.visit_expr_mut(x);
+            parse_quote_spanned!(call.method.span()=> dual::at(&#receiver, #x))
+        })
     }
 
     /// A name in small letters that is bound nowhere in the body, or a path to one.

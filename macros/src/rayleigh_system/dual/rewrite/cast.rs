@@ -96,7 +96,7 @@ impl Rewriter<'_> {
 
     /// Whether the expression is made of literals, fields and constants alone, by arithmetic, casts and
     /// methods of numbers: the same over plain numbers.
-    fn is_constant(&self, expression: &Expr) -> bool {
+    pub fn is_constant(&self, expression: &Expr) -> bool {
         match expression {
             Expr::Lit(_) => true,
             Expr::Paren(inner) => self.is_constant(&inner.expr),

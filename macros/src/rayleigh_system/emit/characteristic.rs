@@ -1,0 +1,60 @@
+//! Characteristics: one call for the value and all derivatives that are needed at one place.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{ToTokens, quote};
+
+use super::super::graph::{Curve, Node, Operation};
+use super::expression::Writer;
+
+impl Writer<'_> {
+    /// `let [drag, drag_slope, ..] = Characteristic::<f64>::derivatives(&self.drag, x);`
+    ///
+    /// Of what is in `nodes` and has no local as yet.
+    pub fn characteristic(&mut self, curve: Curve, x: Node, nodes: &[Node]) -> TokenStream {
+        let mut names = Vec::new();
+        for curve in curve.all() {
+            let node = self.graph.known(Operation::Characteristic(curve, x));
+            let is_open =
+                |node: &Node| nodes.binary_search(node).is_ok() && self.locals[node.index()].is_none();
+            names.push(node.filter(is_open).map(|node| {
+                let name = self.names.of(self.graph, node, &self.locals);
+                self.locals[node.index()] = Some(name.clone());
+                name
+            }));
+        }
+        let call = self.call(curve, x);
+        if self.is_dual {
+            // The number carries its derivatives.
+            let value = names.iter().flatten();
+            return quote!(let #(#value)* = #call;);
+        }
+        let rest = names.iter().rposition(Option::is_some).map_or(0, |last| last + 1);
+        let dots = (rest < names.len()).then(|| quote!(..));
+        let names = names[..rest]
+            .iter()
+            .map(|name| name.as_ref().map_or_else(|| quote!(_), ToTokens::to_token_stream));
+        let names = names.chain(dots);
+        quote!(let [#(#names),*] = #call;)
+    }
+
+    /// One derivative, where no local holds it.
+    pub fn derivative_of(&self, curve: Curve, x: Node) -> TokenStream {
+        let (call, order) = (self.call(curve, x), Literal::u8_unsuffixed(curve.order));
+        if self.is_dual { call } else { quote!(#call[#order]) }
+    }
+
+    /// The value and all derivatives.
+    fn call(&self, curve: Curve, x: Node) -> TokenStream {
+        let of = self.graph.parameter(curve.parameter).operand();
+        if self.is_dual {
+            let x = self.expression(x).tokens;
+            quote!(dual::at(&#of, #x))
+        } else if self.is_lanes[x.index()] {
+            let x = self.lane_receiver(x);
+            quote!(#x.on(&#of))
+        } else {
+            let (name, scalar, x) = (self.runtime("Characteristic"), self.scalar, self.expression(x).tokens);
+            quote!(#name::<#scalar>::derivatives(&#of, #x))
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! Characteristics: functions of one number that a field or constant of the user's is, known by their
+//! derivatives when the program runs.
+
+use proc_macro2::{TokenStream, TokenTree};
+
+use super::{Graph, Node, Operation, with_own_self};
+
+/// The highest derivative that a characteristic has.
+const HIGHEST: u8 = 3;
+
+/// A derivative of a characteristic, from the 0th on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Curve {
+    /// The field or constant, a parameter that is no number.
+    pub parameter: usize,
+    pub order: u8,
+}
+
+impl Curve {
+    /// Every derivative of the characteristic.
+    pub fn all(self) -> impl Iterator<Item = Self> {
+        (0..=HIGHEST).map(move |order| Self { order, ..self })
+    }
+}
+
+impl Graph {
+    /// The characteristic that `tokens` are, at an argument.
+    pub fn characteristic(&mut self, tokens: TokenStream, argument: Node) -> Node {
+        let parameter = self.place(with_own_self(tokens), false, false);
+        self.node(Operation::Characteristic(Curve { parameter, order: 0 }, argument))
+    }
+
+    /// The derivative of a derivative of a characteristic. The fourth, which nothing takes, is NaN.
+    pub fn slope(&mut self, curve: Curve, argument: Node) -> Node {
+        if curve.order == HIGHEST {
+            return self.constant(f64::NAN);
+        }
+        self.node(Operation::Characteristic(Curve { order: curve.order + 1, ..curve }, argument))
+    }
+
+    /// `cam` of `self.wheels[2].cam`, `cam_slope` of its derivative, and so on.
+    pub fn name_of_curve(&self, curve: Curve) -> Option<String> {
+        let tokens = self.parameters[curve.parameter].tokens.clone();
+        let last = tokens.into_iter().filter_map(|token| match token {
+            TokenTree::Ident(word) => Some(word.to_string().trim_start_matches("r#").to_lowercase()),
+            _ => None,
+        });
+        let suffix = ["", "_slope", "_curvature", "_third"][usize::from(curve.order)];
+        last.last().map(|word| format!("{word}{suffix}"))
+    }
+
+    /// Whether any of the expressions is a characteristic of the system's at a place that changes within a run.
+    pub fn reads_characteristic(&self, roots: impl IntoIterator<Item = Node>) -> bool {
+        let is_held = |node: Node| match self.operation(node) {
+            Operation::Coordinate(_) | Operation::Velocity(_) => false,
+            Operation::Parameter(index) => self.parameters[index].reads_self(),
+            _ => true,
+        };
+        self.reachable(roots).into_iter().any(|node| match self.operation(node) {
+            Operation::Characteristic(curve, x) => {
+                self.parameters[curve.parameter].reads_self() && !self.reachable([x]).into_iter().all(is_held)
+            }
+            _ => false,
+        })
+    }
+}
