@@ -1,7 +1,7 @@
 //! Characteristics: one call for the value and all derivatives that are needed at one place.
 
-use proc_macro2::{Literal, TokenStream};
-use quote::{ToTokens, quote};
+use proc_macro2::{Literal, Span, TokenStream};
+use quote::{ToTokens, quote, quote_spanned};
 
 use super::super::graph::{Curve, Node, Operation};
 use super::expression::Writer;
@@ -53,8 +53,14 @@ impl Writer<'_> {
             let x = self.lane_receiver(x);
             quote!(#x.on(&#of))
         } else {
-            let (name, scalar, x) = (self.runtime("Characteristic"), self.scalar, self.expression(x).tokens);
-            quote!(#name::<#scalar>::derivatives(&#of, #x))
+            let (mut name, scalar, x) =
+                (self.runtime("Characteristic"), self.scalar, self.expression(x).tokens);
+            // Where the field is no characteristic, rustc says so there.
+            let span = of.clone().into_iter().last().map_or_else(Span::call_site, |token| token.span());
+            let span = Span::call_site().located_at(span);
+            name.set_span(span);
+            let of = quote_spanned!(span=> &#of);
+            quote_spanned!(span=> #name::<#scalar>::derivatives(#of, #x))
         }
     }
 }
