@@ -9,4 +9,5 @@ mod gauss_order;
 mod gauss_segments;
 mod gauss_structure;
 mod hard;
+mod knots;
 mod order;
