@@ -8,8 +8,8 @@ pub use crate::system::{missing, verification};
 
 #[doc(no_inline)]
 pub use crate::numbers::{
-    Angle, Banded, CancellingTerms, Characteristic, CovectorDerivatives, Derivatives, Direction, Elementary,
-    Gradient, Hessian, LaneVector, Lanes, Mask, MemberVector, Members, Reciprocal, Variations,
+    Angle, Banded, CancellingTerms, CovectorDerivatives, Curve, Derivatives, Direction, Elementary, Gradient,
+    Hessian, LaneVector, Lanes, Mask, MemberVector, Members, Reciprocal, Variations,
 };
 #[doc(no_inline)]
 pub use crate::rules::{

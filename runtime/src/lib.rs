@@ -313,6 +313,8 @@ mod attributes {
 /// - `is_some`, `is_none`, `unwrap_or`, `map_or`, `is_some_and` and their like of an `Option`. What a
 ///   pattern matches, rustc decides: the pattern is written out, and each arm is differentiated for
 ///   itself.
+/// - `self.drag.at(x)`, at any x, of a field or constant that is a [`Table`](system::Table) or another
+///   [`Curve`](system::Curve).
 /// - Integers, with the types that Rust infers: what overflows is refused, `as` wraps, truncates and
 ///   rounds.
 ///
@@ -414,7 +416,7 @@ pub use attributes::rayleigh_system;
 /// ```
 pub use attributes::differentiable;
 
-pub use numbers::{Characteristic, Elementary, Interpolation, Table, TableError, TableSlice};
+pub use numbers::Elementary;
 use numbers::{functions, names};
 #[doc(inline)]
 pub use rules::{Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, Proximal, Trapezoidal};

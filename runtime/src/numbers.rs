@@ -5,9 +5,9 @@
 
 mod anchors;
 mod arrays;
-mod characteristic;
 pub(crate) mod comparison;
 mod compensated;
+mod curve;
 pub(crate) mod derivatives;
 #[cfg(feature = "std")]
 pub mod dual;
@@ -25,8 +25,8 @@ mod table;
 
 pub use anchors::{Angle, Reciprocal};
 pub(crate) use arrays::{Functions, Vectors, product_plus};
-pub use characteristic::Characteristic;
 pub(crate) use compensated::{Compensated, CompensatedMembers};
+pub use curve::Curve;
 pub use derivatives::{
     CancellingTerms, CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, Variations,
 };

@@ -33,8 +33,8 @@ pub mod verification;
 mod violation;
 
 pub use crate::numbers::{
-    Blank, CancellingTerms, CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, LaneVector,
-    Lanes, Mask, Scalar, Variations,
+    Blank, CancellingTerms, CovectorDerivatives, Curve, Derivatives, Direction, Gradient, Hessian,
+    Interpolation, LaneVector, Lanes, Mask, Scalar, Table, TableError, TableSlice, Variations,
 };
 pub use acting_force::ActingForce;
 pub use constrained::{

@@ -11,6 +11,7 @@ mod angles;
 mod before;
 mod characteristic;
 mod combination;
+mod curve;
 mod factor;
 mod fused;
 mod operation;
@@ -33,7 +34,7 @@ use super::syntax::regrouped;
 
 pub use super::functions::{Function, PairFunction, Predicate};
 pub use before::before_the_run;
-pub use characteristic::Curve;
+pub use curve::Curve;
 pub use operation::{Comparison, Operation};
 
 /// An expression of a [`Graph`]. Arguments are smaller than what is made of them.

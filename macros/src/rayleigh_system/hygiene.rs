@@ -25,6 +25,7 @@ pub const MARK: &str = "__0__0__";
 pub const GENERATED: &[&str] = &[
     "ActingForce",
     "CovectorDerivatives",
+    "Curve",
     "D",
     "Derivatives",
     "Direction",

@@ -6,7 +6,7 @@
 //! mixed second derivative. With the directions of a rule that block is the Newton matrix, and nothing else
 //! is computed.
 
-mod characteristic;
+mod curve;
 mod derivatives;
 mod fields;
 mod lift;
@@ -24,7 +24,7 @@ use num_dual::{Derivative, DualNum, DualSVec, HyperDualVec};
 
 use crate::numbers::Scalar;
 
-pub use characteristic::at;
+pub use curve::at;
 pub use derivatives::{
     by_input, covector_derivatives, covector_variation, derivatives, gradient, variations,
 };

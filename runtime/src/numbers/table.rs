@@ -1,18 +1,19 @@
-//! Characteristics given by points: a cubic between each two knots.
+//! Curves given by points: a cubic between each two knots.
 //!
 //! ```text
 //! f(x) = c₀ + c₁ s + c₂ s² + c₃ s³,   s = x − xᵢ,   xᵢ ≤ x < xᵢ₊₁
 //! ```
 //!
-//! The value at a knot is that of the point to the last bit. Beyond the ends f keeps its value, goes on by its
-//! slope, or repeats itself.
+//! The value at a knot is that of the point to the last bit. Beyond the ends f keeps its value, goes on by
+//! its slope, or repeats itself.
 
 mod error;
 mod pieces;
+mod points;
 
 pub use error::{Interpolation, TableError};
 
-use crate::numbers::{Characteristic, Scalar};
+use crate::numbers::{Curve, Scalar};
 
 /// The course of a table beyond its ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,31 +23,31 @@ enum Beyond {
     Repeated,
 }
 
-/// A characteristic of K points, which it holds: an array of knots and one of cubics, without `std`.
+/// A curve through K points, which it holds: an array of knots and one of cubics, without `std`.
 ///
-/// | made by | between the points | derivatives | |
+/// | made by | between the points | continuous | |
 /// |---|---|---|---|
-/// | [`linear`](Self::linear) | straight | f continuous, f′ jumps at knots | |
-/// | [`spline`](Self::spline) | cubics | f, f′, f″ continuous | not-a-knot ends, as `scipy.interpolate.CubicSpline` |
-/// | [`monotone`](Self::monotone) | cubics | f, f′ continuous, f″ jumps at knots | rises and falls where the points do (Fritsch and Butland), as `PchipInterpolator` |
-/// | [`periodic`](Self::periodic) | cubics | f, f′, f″ continuous | goes on for ever; the first y is the last |
+/// | [`linear`](Self::linear) | lines | f | |
+/// | [`spline`](Self::spline) | cubics | f, f′, f″ | as `CubicSpline` of SciPy |
+/// | [`monotone`](Self::monotone) | cubics | f, f′ | as `PchipInterpolator` of SciPy |
+/// | [`periodic`](Self::periodic) | cubics | f, f′, f″ | goes on for ever |
 ///
-/// At a knot derivatives are those to its right, at the last one those to its left. Beyond the ends f stays at the value of the end point, with
-/// derivatives 0, as a thrust does after the fire is out; after [`straight_beyond`](Self::straight_beyond) it
-/// goes on by the slope that it has at the end. f(NaN) is NaN.
+/// At a knot derivatives are those to its right, at the last one those to its left. Beyond the ends f keeps
+/// the value of the end point, with derivatives 0, as a thrust does after the fire is out; after
+/// [`straight_beyond`](Self::straight_beyond) it goes on by the slope that it has at the end. f(NaN) is NaN.
 ///
 /// Points are looked at once, here: a table that exists is right. In a constant a wrong one ends the
 /// compiler:
 ///
 /// ```
-/// use dalembert::{Table, TableError};
+/// use dalembert::system::{Table, TableError};
 ///
 /// /// Drag coefficient over the Mach number.
-/// const DRAG: Table<6> = match Table::monotone([0.0, 0.8, 1.0, 1.2, 2.0, 3.0], [0.3, 0.32, 0.6, 0.72, 0.5, 0.42]) {
+/// const DRAG: Table<5> = match Table::monotone([0.0, 0.8, 1.0, 1.2, 3.0], [0.3, 0.32, 0.6, 0.7, 0.4]) {
 ///     Ok(table) => table,
 ///     Err(_) => panic!("the Mach numbers do not increase"),
 /// };
-/// assert_eq!([DRAG.at(1.0), DRAG.at(9.0)], [0.6, 0.42]);
+/// assert_eq!([DRAG.at(1.0), DRAG.at(9.0)], [0.6, 0.4]);
 ///
 /// let wrong = Table::linear([0.0, 1.0, 1.0], [0.0, 2.0, 3.0]);
 /// assert!(matches!(wrong, Err(TableError::NotIncreasing { index: 2, .. })));
@@ -54,10 +55,11 @@ enum Beyond {
 ///
 /// # Order across knots
 ///
-/// Where a force, which is f itself or f′ of a table in L, has a jump in its k-th derivative, a step over that
-/// knot adds an error of order k + 1: Gauss rules of high order, and the midpoint rule where k = 0, fall back
-/// to it. A run that ends its steps at the knot keeps its order: an event of
-/// [`Watch`](crate::run::Watch) at `q − knot` that stops it.
+/// Where a force, which is f itself or f′ of a table in L, has a jump in its k-th derivative, a step over the
+/// knot adds an error of order k + 1, to which Gauss rules of high order fall back: 3 where a spline is in L,
+/// 2 where it is monotone. A run that ends its steps at the knot keeps its order: by a terminal event of
+/// [`watch`](crate::Trajectory::watch) at `q − knot`. A linear table in L has a force that jumps, where the
+/// equation of a step may have no solution: take a spline there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Table<const K: usize, T = f64> {
     knots: [T; K],
@@ -65,14 +67,14 @@ pub struct Table<const K: usize, T = f64> {
     beyond: Beyond,
 }
 
-/// A characteristic of points whose number is known when the program runs, in slices of the caller's: what a
+/// A curve through points whose number is known when the program runs, in slices of the caller's: what a
 /// [`Table`] is with arrays of its own.
 ///
 /// A system owns what it is made of, so that a field is a `TableSlice<'static>`, of data that live as long as
 /// the program:
 ///
 /// ```
-/// use dalembert::{TableError, TableSlice};
+/// use dalembert::system::{TableError, TableSlice};
 ///
 /// let file = "0.0 12.0\n0.5 30.0\n2.0 25.0\n2.2 0.0";
 /// let numbers = |column| file.lines().filter_map(move |line| line.split(' ').nth(column)?.parse().ok());
@@ -140,9 +142,10 @@ constructors! {
     /// The cubics whose second derivatives are continuous, and the third ones at the second knot from either
     /// end: the not-a-knot spline. Of three points it is a parabola, of two a line.
     spline Spline Held;
-    /// Cubics that rise and fall where the points do, and turn at points alone.
+    /// Cubics that rise and fall where the points do, and turn at points alone (Fritsch and Butland).
     monotone Monotone Held;
-    /// The periodic spline, of at least three points; the last is the first of the next turn, and has its value.
+    /// The periodic spline, of at least three points; the last is the first of the next turn, and has its
+    /// value.
     periodic Periodic Repeated;
 }
 
@@ -203,7 +206,7 @@ impl<const K: usize, T: Scalar> Table<K, T> {
     #[inline]
     #[must_use]
     pub fn at(&self, x: T) -> T {
-        Characteristic::at(self, x)
+        Curve::at(self, x)
     }
 }
 
@@ -224,18 +227,18 @@ impl<'t, T: Scalar> TableSlice<'t, T> {
     #[inline]
     #[must_use]
     pub fn at(&self, x: T) -> T {
-        Characteristic::at(self, x)
+        Curve::at(self, x)
     }
 }
 
-impl<const K: usize, T: Scalar> Characteristic<T> for Table<K, T> {
+impl<const K: usize, T: Scalar> Curve<T> for Table<K, T> {
     #[inline]
     fn derivatives(&self, x: T) -> [T; 4] {
         self.as_slice().derivatives(x)
     }
 }
 
-impl<T: Scalar> Characteristic<T> for TableSlice<'_, T> {
+impl<T: Scalar> Curve<T> for TableSlice<'_, T> {
     fn derivatives(&self, x: T) -> [T; 4] {
         let (Some(&first), Some(&last)) = (self.knots.first(), self.knots.last()) else {
             return [T::constant(f64::NAN); 4];

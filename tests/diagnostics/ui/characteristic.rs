@@ -1,22 +1,23 @@
-use dalembert::{Table, rayleigh_system};
+use dalembert::rayleigh_system;
+use dalembert::system::Table;
 
 /// It has an `at`, and no derivatives.
-struct Curve;
+struct Height;
 
-impl Curve {
+impl Height {
     fn at(&self, x: f64) -> f64 {
         x * x
     }
 }
 
 struct OwnMethod {
-    curve: Curve,
+    height: Height,
 }
 
 #[rayleigh_system]
 impl OwnMethod {
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
-        0.5 * v[0] * v[0] - self.curve.at(q[0])
+        0.5 * v[0] * v[0] - self.height.at(q[0])
     }
 }
 

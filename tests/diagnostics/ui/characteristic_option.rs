@@ -1,4 +1,5 @@
-use dalembert::{Table, rayleigh_system};
+use dalembert::rayleigh_system;
+use dalembert::system::Table;
 
 struct InLanes {
     drag: Table<4>,

@@ -3,10 +3,9 @@
 
 use dalembert::nalgebra::vector;
 use dalembert::run::LaneRuns;
-use dalembert::system::Engine;
+use dalembert::system::{Curve, Engine, Table};
 use dalembert::{
-    Characteristic, Discretise, Force, Gauss, Lagrangian, Midpoint, Rayleigh, State, Table, Trapezoidal,
-    rayleigh_system,
+    Discretise, Force, Gauss, Lagrangian, Midpoint, Rayleigh, State, Trapezoidal, rayleigh_system,
 };
 
 use crate::case;
@@ -22,7 +21,7 @@ case! {
     /// Fields, entries, members, constants, and one place for several derivatives.
     everywhere: [2] at [([0.3, -0.7], [0.9, 0.2]), ([-1.4, 1.2], [-0.3, 1.1]), ([4.2, 0.6], [0.4, -1.7])]
     definitions {
-        use dalembert::{Table, TableSlice};
+        use dalembert::system::{Table, TableSlice};
         pub struct Wheel { cam: Table<4>, weight: f64 }
         pub struct System {
             thrust: Table<3>,
@@ -74,7 +73,7 @@ pub struct Wave {
     a: f64,
 }
 
-impl Characteristic<f64> for Wave {
+impl Curve<f64> for Wave {
     fn derivatives(&self, x: f64) -> [f64; 4] {
         let (sine, cosine) = x.sin_cos();
         [sine, cosine, -sine, -cosine].map(|value| self.a * value)

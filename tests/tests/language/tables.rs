@@ -3,7 +3,7 @@
 
 mod reference;
 
-use dalembert::{Characteristic, Interpolation, Table, TableError, TableSlice};
+use dalembert::system::{Curve, Interpolation, Table, TableError, TableSlice};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use reference::CASES;
@@ -65,8 +65,8 @@ fn points(random: &mut StdRng, count: usize) -> [Vec<f64>; 2] {
     [x, (0..count).map(|_| random.random_range(-2.0..2.0)).collect()]
 }
 
-/// The jumps of f, f′, f″ and f‴, over their sizes, at all knots but the first; with the last one `is_turn` if
-/// the first follows on it.
+/// The jumps of f, f′, f″ and f‴, over their sizes, at all knots but the first; with the last if the first
+/// follows on it.
 fn jumps(table: &TableSlice<'_>, is_turn: bool) -> Vec<[f64; 4]> {
     let knots = table.knots();
     let end = knots.len() - usize::from(!is_turn);
@@ -270,4 +270,27 @@ fn tables_of_single_precision_are_those_of_double() {
     assert_eq!(close, Err(TableError::SinglePrecision { index: 1 }));
     let large = Table::linear([0.0, 1.0], [0.0, 1e39]).unwrap().single();
     assert_eq!(large, Err(TableError::SinglePrecision { index: 0 }));
+}
+
+/// Points are the lines of the table through them, and NaN everywhere where they do not increase.
+#[test]
+fn points_are_a_linear_table() {
+    let mut random = StdRng::seed_from_u64(10);
+    for _ in 0..50 {
+        let [x, y] = points(&mut random, 6);
+        let table = table(Interpolation::Linear, &x, &y).unwrap();
+        let array: [[f64; 2]; 6] = std::array::from_fn(|i| [x[i], y[i]]);
+        for _ in 0..20 {
+            let place = random.random_range(x[0] - 1.0..x[5] + 1.0);
+            let (lines, of_points) = (table.derivatives(place), array.derivatives(place));
+            for (a, b) in lines.iter().zip(of_points) {
+                assert!((a - b).abs() <= 1e-14 * (1.0 + b.abs()), "{a} {b} at {place}");
+            }
+        }
+        assert!(array.at(f64::NAN).is_nan());
+    }
+    let falling = [[0.0, 1.0], [2.0, 2.0], [1.0, 3.0], [4.0, 5.0]];
+    assert!((-1..60).all(|i| falling.at(0.1 * f64::from(i)).is_nan()));
+    let missing = [[0.0, 1.0], [f64::NAN, 2.0], [1.0, 3.0]];
+    assert!((-1..60).all(|i| missing.at(0.1 * f64::from(i)).is_nan()));
 }

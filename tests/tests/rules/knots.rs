@@ -1,10 +1,11 @@
-//! Order across knots of a table in L: a force whose k-th derivative jumps leaves order k + 1 of higher ones; a
-//! run that ends its steps at the knots keeps its own.
+//! Order across knots of a table in L: a force whose k-th derivative jumps leaves order k + 1 of higher ones;
+//! a run that ends its steps at the knots keeps its own.
 //!
 //! Reference: the time to a place by the energy, t = ∫ dq/√(2(E − V)), by quadrature between the knots.
 
 use dalembert::step::Flow;
-use dalembert::{Discretise, Gauss, Midpoint, State, Table, rayleigh_system};
+use dalembert::system::Table;
+use dalembert::{Discretise, Gauss, Midpoint, State, rayleigh_system};
 use dalembert_tests::convergence::Convergence;
 
 #[derive(Clone, Copy)]

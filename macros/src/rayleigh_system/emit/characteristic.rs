@@ -7,7 +7,7 @@ use super::super::graph::{Curve, Node, Operation};
 use super::expression::Writer;
 
 impl Writer<'_> {
-    /// `let [drag, drag_slope, ..] = Characteristic::<f64>::derivatives(&self.drag, x);`
+    /// `let [drag, drag_slope, ..] = Curve::<f64>::derivatives(&self.drag, x);`
     ///
     /// Of what is in `nodes` and has no local as yet.
     pub fn characteristic(&mut self, curve: Curve, x: Node, nodes: &[Node]) -> TokenStream {
@@ -53,8 +53,7 @@ impl Writer<'_> {
             let x = self.lane_receiver(x);
             quote!(#x.on(&#of))
         } else {
-            let (mut name, scalar, x) =
-                (self.runtime("Characteristic"), self.scalar, self.expression(x).tokens);
+            let (mut name, scalar, x) = (self.runtime("Curve"), self.scalar, self.expression(x).tokens);
             // Where the field is no characteristic, rustc says so there.
             let span = of.clone().into_iter().last().map_or_else(Span::call_site, |token| token.span());
             let span = Span::call_site().located_at(span);

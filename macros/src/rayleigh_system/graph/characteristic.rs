@@ -3,25 +3,8 @@
 
 use proc_macro2::{TokenStream, TokenTree};
 
+use super::curve::{Curve, HIGHEST};
 use super::{Graph, Node, Operation, with_own_self};
-
-/// The highest derivative that a characteristic has.
-const HIGHEST: u8 = 3;
-
-/// A derivative of a characteristic, from the 0th on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Curve {
-    /// The field or constant, a parameter that is no number.
-    pub parameter: usize,
-    pub order: u8,
-}
-
-impl Curve {
-    /// Every derivative of the characteristic.
-    pub fn all(self) -> impl Iterator<Item = Self> {
-        (0..=HIGHEST).map(move |order| Self { order, ..self })
-    }
-}
 
 impl Graph {
     /// The characteristic that `tokens` are, at an argument.
@@ -49,7 +32,7 @@ impl Graph {
         last.last().map(|word| format!("{word}{suffix}"))
     }
 
-    /// Whether any of the expressions is a characteristic of the system's at a place that changes within a run.
+    /// Whether any of the expressions is a characteristic of the system's at a place that changes in a run.
     pub fn reads_characteristic(&self, roots: impl IntoIterator<Item = Node>) -> bool {
         let is_held = |node: Node| match self.operation(node) {
             Operation::Coordinate(_) | Operation::Velocity(_) => false,

@@ -3,7 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::{Curve, Function, Node, PairFunction, Predicate};
+use super::curve::Curve;
+use super::{Function, Node, PairFunction, Predicate};
 
 /// An operation on earlier nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

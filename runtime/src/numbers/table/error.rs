@@ -6,13 +6,13 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Interpolation {
-    /// [`Table::linear`](crate::Table::linear).
+    /// [`Table::linear`](crate::system::Table::linear).
     Linear,
-    /// [`Table::spline`](crate::Table::spline).
+    /// [`Table::spline`](crate::system::Table::spline).
     Spline,
-    /// [`Table::monotone`](crate::Table::monotone).
+    /// [`Table::monotone`](crate::system::Table::monotone).
     Monotone,
-    /// [`Table::periodic`](crate::Table::periodic).
+    /// [`Table::periodic`](crate::system::Table::periodic).
     Periodic,
 }
 
@@ -87,8 +87,8 @@ pub enum TableError {
         /// The last y.
         last: f64,
     },
-    /// A coefficient of the cubic that starts at a point is beyond the largest number: points are too close to
-    /// each other for their values.
+    /// A coefficient of the cubic that starts at a point is beyond the largest number: points are too close
+    /// to each other for their values.
     TooSteep {
         /// The constructor.
         of: Interpolation,

@@ -8,8 +8,8 @@
 //! cubic      c₀ = yᵢ,  c₁ = dᵢ,  c₂ = (3mᵢ − 2dᵢ − dᵢ₊₁)/hᵢ,  c₃ = (dᵢ + dᵢ₊₁ − 2mᵢ)/hᵢ²
 //! ```
 //!
-//! Each piece holds, while slopes are solved for, what elimination leaves in its row: no memory but that of the
-//! pieces is needed. No row needs a pivot: what is left of a row's diagonal is above its neighbour.
+//! Each piece holds, while slopes are solved for, what elimination leaves in its row: no memory but that of
+//! the pieces is needed. No row needs a pivot: what is left of a row's diagonal is above its neighbour.
 //! F. N. Fritsch and J. Butland, A method for constructing local monotone piecewise cubic interpolants, SIAM
 //! Journal on Scientific and Statistical Computing 5, 1984.
 

@@ -38,7 +38,7 @@ def cases(random):
 text = f"""//! Written by `reference.py`, by SciPy {scipy.__version__}: x, f, f′, f″ and f‴ of curves through random points.
 
 use super::Case;
-use dalembert::Interpolation;
+use dalembert::system::Interpolation;
 
 #[rustfmt::skip]
 pub const CASES: [Case; 11] = [

@@ -1,7 +1,7 @@
 //! Written by `reference.py`, by SciPy 1.17.1: x, f, f′, f″ and f‴ of curves through random points.
 
 use super::Case;
-use dalembert::Interpolation;
+use dalembert::system::Interpolation;
 
 #[rustfmt::skip]
 pub const CASES: [Case; 11] = [

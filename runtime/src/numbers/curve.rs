@@ -2,25 +2,26 @@
 
 use crate::numbers::{Lanes, Members, members::each_member};
 
-/// A function of one number with its derivatives: a characteristic curve, such as thrust over time, drag
-/// over the Mach number or the lift of a cam over its angle.
+/// A function of one number with its derivatives: a characteristic, such as thrust over time, drag over the
+/// Mach number or the lift of a cam over its angle.
 ///
-/// In L, R, f and constraints of a system `self.drag.at(x)` is the characteristic of the field `drag` at any
-/// expression x, and so is `DRAG.at(x)` of a constant. Derivatives are written out: each characteristic is
-/// asked once for its value and all derivatives at one x.
+/// In L, R, f and constraints of a system `self.drag.at(x)` is the curve of the field `drag` at any
+/// expression x, and so is `DRAG.at(x)` of a constant. Derivatives are written out: a curve is asked once for
+/// its value and all derivatives at one x.
 ///
-/// A [`Table`](crate::Table) is one. A function of one's own is another:
+/// A [`Table`](crate::system::Table) is one. A function of one's own is another:
 ///
 /// ```
 /// use dalembert::nalgebra::vector;
-/// use dalembert::{Characteristic, Lagrangian, rayleigh_system};
+/// use dalembert::system::Curve;
+/// use dalembert::{Lagrangian, rayleigh_system};
 ///
 /// /// a x⁴.
 /// struct Quartic {
 ///     a: f64,
 /// }
 ///
-/// impl Characteristic<f64> for Quartic {
+/// impl Curve<f64> for Quartic {
 ///     fn derivatives(&self, x: f64) -> [f64; 4] {
 ///         [x.powi(4), 4.0 * x.powi(3), 12.0 * x * x, 24.0 * x].map(|value| self.a * value)
 ///     }
@@ -38,15 +39,15 @@ use crate::numbers::{Lanes, Members, members::each_member};
 /// }
 ///
 /// let oscillator = Oscillator { potential: Quartic { a: 0.25 } };
-/// assert_eq!(oscillator.gradient(&vector![2.0], &vector![0.0]).d1, vector![-8.0]);
+/// assert_eq!(oscillator.lagrangian_gradient(&vector![2.0], &vector![0.0]).d1, vector![-8.0]);
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is no characteristic over `{T}`",
-    label = "neither a table of this precision nor a type that implements `Characteristic`",
-    note = "`field.at(x)` in L, R, f or a constraint reads a `Table`, or a type with `impl Characteristic<{T}>`, which gives the derivatives",
-    note = "another function of one's own stands in the annotated block, `fn curve(x: f64) -> f64`, and is called by `Self::curve(x)`"
+    message = "`{Self}` is no curve over `{T}`",
+    label = "neither a table of this precision nor a type that implements `Curve`",
+    note = "`field.at(x)` in L, R, f or a constraint reads a `Table`, or a type with `impl Curve<{T}>`, which gives the derivatives",
+    note = "another function of one's own stands in the annotated block, `fn height(x: f64) -> f64`, and is called by `Self::height(x)`"
 )]
-pub trait Characteristic<T> {
+pub trait Curve<T> {
     /// f, f′, f″ and f‴ at x, in the units of f over powers of those of x.
     ///
     /// A step takes the first two derivatives, `step_derivatives = second` the third one.
@@ -61,7 +62,7 @@ pub trait Characteristic<T> {
     }
 }
 
-impl<T, C: Characteristic<T> + ?Sized> Characteristic<T> for &C {
+impl<T, C: Curve<T> + ?Sized> Curve<T> for &C {
     #[inline]
     fn derivatives(&self, x: T) -> [T; 4] {
         (**self).derivatives(x)
@@ -69,13 +70,13 @@ impl<T, C: Characteristic<T> + ?Sized> Characteristic<T> for &C {
 }
 
 impl<T: Copy, const S: usize> Lanes<T, S> {
-    /// The derivatives of a characteristic, lane by lane.
+    /// The derivatives of a curve, lane by lane.
     #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
-    pub fn on(self, characteristic: &(impl Characteristic<T> + ?Sized)) -> [Self; 4] {
+    pub fn on(self, curve: &(impl Curve<T> + ?Sized)) -> [Self; 4] {
         let mut all = [self; 4];
         for (lane, &x) in self.0.iter().enumerate() {
-            let [f, f1, f2, f3] = characteristic.derivatives(x);
+            let [f, f1, f2, f3] = curve.derivatives(x);
             (all[0].0[lane], all[1].0[lane], all[2].0[lane], all[3].0[lane]) = (f, f1, f2, f3);
         }
         all
@@ -83,13 +84,13 @@ impl<T: Copy, const S: usize> Lanes<T, S> {
 }
 
 impl<T: Copy, const W: usize> Members<T, W> {
-    /// The derivatives of a characteristic, member by member.
+    /// The derivatives of a curve, member by member.
     #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
-    pub fn on(self, characteristic: &(impl Characteristic<T> + ?Sized)) -> [Self; 4] {
+    pub fn on(self, curve: &(impl Curve<T> + ?Sized)) -> [Self; 4] {
         let mut all = [self; 4];
         each_member!(i => {
-            let [f, f1, f2, f3] = characteristic.derivatives(self.0[i]);
+            let [f, f1, f2, f3] = curve.derivatives(self.0[i]);
             (all[0].0[i], all[1].0[i], all[2].0[i], all[3].0[i]) = (f, f1, f2, f3);
         });
         all
