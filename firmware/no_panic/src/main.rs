@@ -5,9 +5,9 @@
 //! midpoint and trapezoidal rule with dense mass matrices, friction and a general force; by the midpoint rule
 //! with banded Newton matrices, n = 4…8; by the fitted rules, the one-sided one and the explicit trapezoidal
 //! rule, its composition and its splitting; steps of n = 1…3 coordinates by Gauss rules, with an input and
-//! time, and every derivative of them; and steps on constraints, one of them redundant, with reactions and A.
-//! Certificates are not among them. `cargo xtask no-panic` builds it at opt-level 3 and s, and with the
-//! feature `may-panic`, which must fail.
+//! time, and every derivative of them; steps on constraints, one of them redundant, with reactions and A; and
+//! tables of each kind in L, R and f. Certificates are not among them. `cargo xtask no-panic` builds it at
+//! opt-level 3 and s, and with the feature `may-panic`, which must fail.
 
 #![no_std]
 #![no_main]
@@ -18,6 +18,7 @@ mod constrained;
 mod frictional;
 mod gauss;
 mod systems;
+mod tabled;
 
 use core::hint::black_box;
 use core::panic::PanicInfo;
@@ -39,7 +40,11 @@ fn panic(_: &PanicInfo) -> ! {
 #[unsafe(no_mangle)]
 pub extern "C" fn main() -> i32 {
     #[cfg(not(feature = "may-panic"))]
-    let failed = systems::step_all() + gauss::step_all() + constrained::step_all() + frictional::step_all();
+    let failed = systems::step_all()
+        + gauss::step_all()
+        + constrained::step_all()
+        + frictional::step_all()
+        + tabled::step_all();
     #[cfg(feature = "may-panic")]
     let failed = [1, 2, 3][black_box(gauss::step_all()) as usize];
     black_box(failed)
