@@ -1,6 +1,6 @@
 //! A tape: graphs evaluated on numbers, which is what the emitted code computes, without compiling it.
 
-use super::{Comparison, Curve, Graph, Node, Operation};
+use super::{Comparison, Graph, Node, Operation};
 
 /// The values of `roots` at (q, v), each operation's result passed through `rounded`. Truth values are 1 and
 /// 0.
@@ -42,7 +42,7 @@ pub fn values_of(
             Operation::Negate(a) => -at(a),
             Operation::Function(function, x) => function.method()(at(x)),
             Operation::Pair(function, a, b) => function.method()(at(a), at(b)),
-            Operation::Characteristic(curve, x) => stand_in(curve, at(x)),
+            Operation::Characteristic(curve, x) => stand_in(at(x))[usize::from(curve.order)],
             Operation::MultiplyAdd(a, b, c) => at(a).mul_add(at(b), at(c)),
             Operation::Power(x, n) => at(x).powi(n),
             Operation::Select(condition, a, b) => {
@@ -84,9 +84,8 @@ pub fn values_of(
     roots.iter().map(|root| values[root.index()]).collect()
 }
 
-/// A function in place of any characteristic, which has none here: sin((k + 1) x) of the k-th parameter.
-fn stand_in(curve: Curve, x: f64) -> f64 {
-    let rate = (curve.parameter + 1) as f64;
-    let turned = rate * x + f64::from(curve.order) * std::f64::consts::FRAC_PI_2;
-    rate.powi(curve.order.into()) * turned.sin()
+/// A function in place of any characteristic, which has none here, with its derivatives: the sine.
+pub fn stand_in(x: f64) -> [f64; 4] {
+    let (sine, cosine) = x.sin_cos();
+    [sine, cosine, -sine, -cosine]
 }

@@ -18,7 +18,7 @@ const ATTRIBUTES: [&str; 7] = [
 /// A system with random L, R and f, and what is asked for.
 pub fn system(seed: u64) -> (TokenStream, TokenStream) {
     let mut random = Random(seed);
-    let [l, r, f] = [0; 3].map(|_| {
+    let [l, r, f, place] = [0; 4].map(|_| {
         let depth = 1 + random.below(4);
         Expression::random(&mut random, depth).text()
     });
@@ -27,12 +27,15 @@ pub fn system(seed: u64) -> (TokenStream, TokenStream) {
     let (is_explicit, is_joint) = (attribute.contains("explicit"), attribute.contains("one_sided"));
     let is_timed = !is_joint && random.below(2) == 0;
     let (t, phase) = if is_timed { (", t: f64", " * (0.3 * t).cos()") } else { ("", "") };
-    let [l, f] = [l, f].map(|text| if is_explicit { text.replace("v[", "q[") } else { text });
+    let [l, f, place] = [l, f, place].map(|text| if is_explicit { text.replace("v[", "q[") } else { text });
+    // A characteristic at the same place twice, or none.
+    let cam = format!("Self::CAM.at({place})");
+    let [of_l, of_f] = if random.below(3) == 0 { ["0.0", "0.0"] } else { [&*cam; 2] };
     let is_plain = is_explicit || is_joint;
     let r = if is_plain { "0.1 * v[0] * v[1]".to_owned() } else { format!("self.k * v[0] * v[0] + {r}") };
     let (input, drive) = if is_explicit { ("", "self.k") } else { (", u: [f64; 1]", "u[0] * q[1]") };
     let force = format!(
-        "fn force(&self, q: [f64; 2], v: [f64; 2]{input}) -> [f64; 2] {{ let _ = v; [{drive}, {f}] }}"
+        "fn force(&self, q: [f64; 2], v: [f64; 2]{input}) -> [f64; 2] {{ let _ = v; [{drive}, {of_f} + {f}] }}"
     );
     let force = if is_joint { "" } else { &force };
     let scale = "fn time_scale(&self, q: [f64; 2]) -> f64 { 1.0 + self.m * q[0].cos() * q[1] }";
@@ -48,7 +51,7 @@ pub fn system(seed: u64) -> (TokenStream, TokenStream) {
     let item = format!(
         "impl Random {{
             fn lagrangian(&self, q: [f64; 2], v: [f64; 2]{t}) -> f64 {{
-                0.5 * self.m * (v[0] * v[0] + 2.0 * v[1] * v[1]) + ({l}){phase}
+                0.5 * self.m * (v[0] * v[0] + 2.0 * v[1] * v[1]) + ({l}){phase} - {of_l}
             }}
             fn rayleigh(&self, q: [f64; 2], v: [f64; 2]) -> f64 {{ let _ = q; {r} }}
             {force}

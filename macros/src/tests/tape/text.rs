@@ -6,6 +6,7 @@ use proc_macro2::TokenStream;
 use quote::ToTokens;
 use syn::{BinOp, Block, Expr, Lit, Member, Pat, Stmt, UnOp};
 
+use crate::rayleigh_system::graph::interpret::stand_in;
 use crate::rayleigh_system::graph::{Function, PairFunction};
 
 /// A value of the text.
@@ -94,7 +95,7 @@ impl Scope {
                 self.names.insert(name.ident.to_string(), value);
             }
             (Pat::Type(typed), value) => self.bind(&typed.pat, value),
-            (Pat::Wild(_), _) => {}
+            (Pat::Wild(_) | Pat::Rest(_), _) => {}
             (Pat::Tuple(tuple), Many(values)) => {
                 tuple.elems.iter().zip(values).for_each(|(pattern, value)| self.bind(pattern, value));
             }
@@ -131,8 +132,8 @@ impl Scope {
                     "LOG10_E" => Number(std::f64::consts::LOG10_E),
                     "INFINITY" => Number(f64::INFINITY),
                     "NAN" => Number(f64::NAN),
-                    // Parameters by which lanes start: nothing is kept from a sweep before.
-                    "segment" | "anchors" | "angles" | "reciprocals" => Many(Vec::new()),
+                    // A characteristic; parameters by which lanes start, with nothing from a sweep before.
+                    "CAM" | "segment" | "anchors" | "angles" | "reciprocals" => Many(Vec::new()),
                     name => panic!("{name} is not known"),
                 }
             }
@@ -178,6 +179,7 @@ impl Scope {
                     }
                     ("from" | "splat" | "of_each" | "Members", [value]) => value.clone(),
                     ("select", [mask, a, b]) => (if mask.is_true() { a } else { b }).clone(),
+                    ("derivatives", [_, x]) => Value::vector(&stand_in(x.number())),
                     ("momenta", [_]) => self.names["momenta"].clone(),
                     (name, _) => panic!("{name} is not known"),
                 }
@@ -191,6 +193,7 @@ impl Scope {
                     ("map", [value]) => value.clone(),
                     ("sin_cos", [x]) => Many(vec![Number(x.number().sin()), Number(x.number().cos())]),
                     ("of", [x]) => Number(1.0 / x.number()),
+                    ("on", [_]) => Value::vector(&stand_in(self.value(own).number())),
                     _ => method(&name, &self.value(own), &arguments),
                 }
             }
