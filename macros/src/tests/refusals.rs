@@ -37,7 +37,13 @@ fn what_cannot_be_written_out_is_an_error_that_says_why() {
         (quote!(self.k.div_euclid(v[0])), "of fields and constants alone"),
         (quote!(self.cam.at(q[0], v[0])), "the method `at` has no derivative here"),
         (quote!(self.grid.at(3) * q[0]), "the method `at` has no derivative here"),
-        (quote!(match self.law { Law::Cam(cam) => cam.at(q[0]), _ => 0.0 }), "that a pattern binds"),
+        (
+            quote!(match self.law {
+                Law::Cam(cam) => cam.at(q[0]),
+                _ => 0.0,
+            }),
+            "that a pattern binds",
+        ),
         (quote!(if q[0] > 0.0 { self.cams[self.i].at(q[0]) } else { 0.0 }), "may panic within the condition"),
         (quote!(q[0] * 2.5_f64.floor()), "write the result"),
         (quote!(helper(q[0])), "`helper` is not known here"),

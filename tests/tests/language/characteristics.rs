@@ -160,7 +160,7 @@ fn every_engine_and_the_function_written_out_have_the_same_derivatives() {
     assert!(plain.p.norm() > 0.5 && seen[seen.len() - 12..].iter().all(|entry| entry.abs() > 1e-6));
 }
 
-/// A function of one's own that is wrong in its third derivative alone.
+/// A free function has curves as parameters, and its structure is none of a polynomial.
 #[test]
 fn what_a_characteristic_gives_is_what_is_taken() {
     #[rayleigh_system]
@@ -170,7 +170,8 @@ fn what_a_characteristic_gives_is_what_is_taken() {
     let hill = Hill { height: Wave { a: 2.0 } };
     let slope = hill.lagrangian_derivatives(&vector![0.4], &vector![1.0]);
     assert_eq!([slope.d1[0], slope.d11[0]], [-2.0 * 0.4_f64.cos(), 2.0 * 0.4_f64.sin()]);
-    assert!(!Hill::STRUCTURE.quadratic_lagrangian && Hill::STRUCTURE.constant_mass_matrix);
+    let structure = Hill::STRUCTURE;
+    assert!(!structure.quadratic_lagrangian && structure.constant_mass_matrix);
 }
 
 /// A constant table in lanes: every member has the bits of its own run. Fields of it stand before the run.

@@ -111,8 +111,8 @@ fn pieces_meet_as_smoothly_as_is_said_through_all_points() {
             _ => 3,
         };
         for jump in &jumps {
-            for order in 0..smooth {
-                assert!(jump[order].abs() < 1e-9, "{of}: order {order} jumps by {}", jump[order]);
+            for (order, jump) in jump.iter().enumerate().take(smooth) {
+                assert!(jump.abs() < 1e-9, "{of}: order {order} jumps by {jump}");
             }
         }
         let next = jumps.iter().map(|jump| jump[smooth].abs()).fold(0.0, f64::max);
