@@ -1,6 +1,7 @@
-//! What the scenes `four_bar`, `fekete` and `rolling` claim, against computations that share no code with
-//! them.
+//! What the scenes `four_bar`, `fekete`, `rolling` and `stick_slip` claim, against computations that share no
+//! code with them.
 
+mod belt;
 mod cart;
 #[path = "../../examples/fekete.rs"]
 #[expect(dead_code, reason = "of the scene, what it computes is tested here, not what it prints")]
@@ -11,6 +12,9 @@ mod four_bar;
 #[path = "../../examples/rolling.rs"]
 #[expect(dead_code, reason = "of the scene, what it computes is tested here, not what it prints")]
 mod rolling;
+#[path = "../../examples/stick_slip.rs"]
+#[expect(dead_code, reason = "of the scene, what it computes is tested here, not what it prints")]
+mod stick_slip;
 
 use std::f64::consts::TAU;
 
