@@ -30,6 +30,7 @@ use nalgebra::SVector;
 
 use super::SelfAdjoint;
 use crate::numbers::{Compensated, Scalar, lanes::splat};
+use crate::step::massless::inertia;
 use crate::step::{
     Discrete, DiscreteObjects, EquationAt, Flow, LinearizedStep, Quantity, Report, Segment, State, Step,
     StepError, newton::ITERATIONS, of_any_step,
@@ -154,7 +155,7 @@ where
         step: &Step<T, N>,
         h: T,
     ) -> Result<EquationAt<T, N>, StepError> {
-        let mass = self.lagrangian_derivatives(&state.q, &step.velocity).d22;
+        let mass = inertia(self, &state.q, &step.velocity, h);
         let equation = |p0, matrix, solved: &SolvedSegment<'_, L, N, S>| EquationAt {
             p0,
             matrix,
@@ -199,6 +200,8 @@ where
 {
     type RunMemory = StageHistory<T, N, S>;
 
+    const TAKES_MASSLESS: bool = true;
+
     /// By collocation; `guess` serves all stages.
     fn step(
         &self,
@@ -237,7 +240,7 @@ fn solved<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, con
     let solution = match guess {
         Some(v) => {
             StepError::require_finite(v, Quantity::Velocity)?;
-            solve(&problem, v).map_err(|error| of_any_step(system, state, error))?
+            solve(&problem, v).map_err(|error| of_any_step(system, state, true, error))?
         }
         None => solved_from(&problem, state)?,
     };

@@ -33,7 +33,9 @@ impl DisplacementRule for Midpoint {
     const NODES: &'static [Node] = &[Node { position: 0.5, weight: 1.0 }];
 }
 
-impl SolvedForVelocity for Midpoint {}
+impl SolvedForVelocity for Midpoint {
+    const TAKES_MASSLESS: bool = true;
+}
 
 impl SelfAdjoint for Midpoint {}
 

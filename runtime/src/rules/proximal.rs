@@ -72,7 +72,9 @@ use crate::system::{Driven, SmoothRayleigh};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Proximal;
 
-impl SolvedForVelocity for Proximal {}
+impl SolvedForVelocity for Proximal {
+    const TAKES_MASSLESS: bool = true;
+}
 
 /// L_d and f_d of the midpoint rule, without the kinks: their forces hold the motion beside f_d, as reactions
 /// of constraints do.

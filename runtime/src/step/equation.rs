@@ -64,6 +64,14 @@ pub(crate) trait StepEquation<S: Scalar, const N: usize> {
         Equation::General
     }
 
+    /// Whether it is one for coordinates without mass too: [`Flow::TAKES_MASSLESS`](crate::step::Flow).
+    fn takes_massless(&self) -> bool
+    where
+        Self: Sized,
+    {
+        false
+    }
+
     /// The cause of numbers that are not finite.
     fn cause(&self, segment: &Segment<S, N>) -> Option<StepError>
     where
@@ -116,6 +124,11 @@ where
     #[inline]
     fn kind(&self) -> Equation {
         if <L as Fused<R, N>>::LINEAR { Equation::Linear } else { Equation::General }
+    }
+
+    #[inline]
+    fn takes_massless(&self) -> bool {
+        L::TAKES_MASSLESS
     }
 
     #[inline]

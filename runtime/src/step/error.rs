@@ -274,7 +274,8 @@ impl fmt::Display for StepError {
                 write!(
                     f,
                     "∂²L/∂v² is singular (pivot of coordinate {column}): momenta do not determine velocities; give \
-                     coordinate {column} a kinetic energy of its own, or remove it"
+                     coordinate {column} a kinetic energy of its own, or remove it; where R damps it, `Midpoint`, `Proximal` \
+                     and Gauss rules step it without, of a system with an input as its view"
                 )?;
                 if cfg!(feature = "std") {
                     return Ok(());

@@ -315,6 +315,10 @@ where
         if L::IS_UNIFORM { self.free.kind() } else { Equation::General }
     }
 
+    fn takes_massless(&self) -> bool {
+        self.free.takes_massless()
+    }
+
     fn cause(&self, segment: &Segment<L::Scalar, N>) -> Option<StepError> {
         self.free.cause(segment)
     }
