@@ -118,7 +118,7 @@ impl<const S: usize> Gauss<S> {
 fn completed<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
     problem: &Problem<'_, L, N, S>,
     solution: &Solution<T, N, S>,
-) -> Result<(Step<T, N>, [Compensated<T, N>; 2]), StepError> {
+) -> Result<Completed<T, N>, StepError> {
     let displacement = problem.sum(&solution.v);
     let ends = [problem.q0.plus(&displacement), problem.p0.plus(&problem.sum(&solution.rate))];
     let state = State { q: ends[0].value, p: ends[1].value };
@@ -210,7 +210,10 @@ where
         guess: Option<&SVector<T, N>>,
     ) -> Result<Step<T, N>, StepError> {
         let (problem, solution) = solved::<_, _, N, S>(self, state, h, guess)?;
-        Ok(completed(&problem, &solution)?.0)
+        match completed(&problem, &solution) {
+            Ok((step, _)) => Ok(step),
+            Err(error) => by_matrices(&problem, state).map(|(_, (step, _))| step).ok_or(error),
+        }
     }
 
     /// By the stages of the step itself.
@@ -223,6 +226,21 @@ where
         let (step, solved) = solved_segment::<_, _, N, S>(self, state, h, guess)?;
         Ok((step, solved.by_state()?.matrix()))
     }
+}
+
+/// A step and both ends.
+type Completed<T, const N: usize> = (Step<T, N>, [Compensated<T, N>; 2]);
+
+/// The stages and the step without the fixed point, which corrects by masses alone: where a residual is 0 in
+/// a coordinate that has none, by 0/0.
+#[cold]
+#[inline(never)]
+fn by_matrices<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    state: &State<T, N>,
+) -> Option<(Solution<T, N, S>, Completed<T, N>)> {
+    let solution = solve::by_matrices(problem, &state.velocity(problem.system).ok()?).ok()?;
+    Some((solution, completed(problem, &solution).ok()?))
 }
 
 /// The stages of the step from `state`; `guess` serves all of them.
@@ -312,7 +330,14 @@ fn solved_segment<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
     h: T,
     guess: Option<&SVector<T, N>>,
 ) -> Result<(Step<T, N>, SolvedSegment<'a, L, N, S>), StepError> {
-    let (problem, solution) = solved(system, state, h, guess)?;
-    let step = completed(&problem, &solution)?.0;
+    let (problem, mut solution) = solved(system, state, h, guess)?;
+    let step = match completed(&problem, &solution) {
+        Ok((step, _)) => step,
+        Err(error) => {
+            let (again, (step, _)) = by_matrices(&problem, state).ok_or(error)?;
+            solution = again;
+            step
+        }
+    };
     Ok((step, SolvedSegment::of_stages(problem, solution.v)?))
 }

@@ -27,6 +27,14 @@ pub(crate) struct Balance<S, const N: usize> {
     pub(crate) by_q: SMatrix<S, N, N>,
 }
 
+impl<S: Scalar, const N: usize> Balance<S, N> {
+    /// The equations of a system all of whose coordinates have mass.
+    #[inline]
+    pub(crate) fn of(l: &Derivatives<S, N>) -> Self {
+        Self { value: l.d2, by_v: l.d22, by_q: l.d12.transpose() }
+    }
+}
+
 impl<const N: usize> Massless<N> {
     /// No coordinate.
     #[inline]
@@ -75,7 +83,7 @@ impl<const N: usize> Massless<N> {
         force: impl FnOnce() -> CovectorDerivatives<S, N>,
         scale: S,
     ) -> Balance<S, N> {
-        let mut balance = Balance { value: l.d2, by_v: l.d22, by_q: l.d12.transpose() };
+        let mut balance = Balance::of(l);
         if !self.are_any() {
             return balance;
         }

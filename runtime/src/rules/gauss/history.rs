@@ -8,7 +8,7 @@ use super::coefficients::Coefficients;
 use super::problem::{Problem, Solution, Solver};
 use super::slack::{Allowance, Slack, Swept, sweep};
 use super::solve::solve;
-use super::{Gauss, completed, fixed_point, solved_from};
+use super::{Gauss, by_matrices, completed, fixed_point, solved_from};
 use crate::numbers::{
     Compensated, LaneVector, Lanes, Scalar,
     lanes::{lane, splat, write_lane},
@@ -275,14 +275,21 @@ where
         } else {
             guess.and_then(|guess| fixed_point::iterate(&problem, &guess))
         };
-        let solution = match swept {
+        let mut solution = match swept {
             Some(solution) => solution,
             None => {
                 let near = self.suggested.and_then(|v| solve(&problem, &v).ok());
                 near.map_or_else(|| solved_from(&problem, state), Ok)?
             }
         };
-        let (step, [q, p]) = completed(&problem, &solution)?;
+        let (step, [q, p]) = match completed(&problem, &solution) {
+            Ok(completed) => completed,
+            Err(error) => {
+                let (again, completed) = by_matrices(&problem, state).ok_or(error)?;
+                solution = again;
+                completed
+            }
+        };
         (self.v, self.h, self.solver) = (solution.v, h, solution.solver);
         (self.q, self.p, self.suggested, self.is_corrected) = (q, p, None, false);
         if let Some(slack) = &mut self.slack {
