@@ -222,3 +222,233 @@ fn what_nothing_determines_is_refused() {
     assert_eq!(MAXWELL.by(Trapezoidal, 0.1).run(start).next().unwrap().unwrap_err(), refused);
     assert_eq!(MAXWELL.by(Fitted, 0.1).step(&start).unwrap_err(), refused);
 }
+
+/// With a mass of 10⁻⁹ to 10⁻³ in its place, q and v at t = 5 from rest at (1, 0), by eigenvectors in 60
+/// digits.
+const NEARLY: [(f64, [f64; 4]); 4] = [
+    (
+        1e-9,
+        [
+            -0.035_715_576_400_757_48,
+            -8.355_762_479_215_343e-5,
+            2.506_729_218_858_187e-4,
+            -0.047_509_358_389_180_45,
+        ],
+    ),
+    (
+        1e-7,
+        [
+            -0.035_715_573_431_129,
+            -8.356_062_493_364_991e-5,
+            2.506_866_257_362_028e-4,
+            -0.047_509_352_530_928_75,
+        ],
+    ),
+    (
+        1e-5,
+        [
+            -0.035_715_276_466_314_28,
+            -8.386_063_933_776_402e-5,
+            2.520_570_056_803_433e-4,
+            -0.047_508_766_705_128_21,
+        ],
+    ),
+    (
+        1e-3,
+        [
+            -0.035_685_560_305_750_93,
+            -1.138_646_277_153_634e-4,
+            3.890_440_609_435_789e-4,
+            -0.047_450_177_797_488_83,
+        ],
+    ),
+];
+
+/// Steps that do not resolve how the velocity of a mass so light decays, from a start that asks for it: q is
+/// that of the motion, v by `Fitted` alone, to ½h v̇. By the others v alternates about it for ever: the control.
+#[test]
+fn coordinates_with_nearly_no_mass() -> Result<(), StepError> {
+    for (mass, [q0, q1, v0, v1]) in NEARLY {
+        let (system, braked) = (Maxwell { m: [1.0, mass], ..MAXWELL }, Braked { m: [1.0, mass], ..BRAKED });
+        let start = State::from_velocity(&system, [1.0, 0.0], [0.0, 0.0])?;
+        let h = 1.0 / 1024.0;
+        let ends = [
+            system.by(Midpoint, h).run(start).nth(5119).unwrap()?.state,
+            braked.by(Proximal, h).run(start).nth(5119).unwrap()?.state,
+            system.by(Gauss::<4>, 16.0 * h).run(start).nth(319).unwrap()?.state,
+            system.by(Fitted, h).run(start).nth(5119).unwrap()?.state,
+        ];
+        for (i, end) in ends.into_iter().enumerate() {
+            let off =
+                [end.q - vector![q0, q1], end.velocity(&system)? - vector![v0, v1]].map(|off| off.amax());
+            assert!(off[0] < 1e-6, "rule {i}, mass {mass:e}: {off:?}");
+            assert!(i < 3 || off[1] < 5e-5, "mass {mass:e}: {off:?}");
+            assert!(i == 3 || mass > 1e-6 || off[1] > 0.1, "rule {i}, mass {mass:e}: {off:?}");
+        }
+    }
+    Ok(())
+}
+
+/// A bead without inertia on a spring, pulled by an input; at c > 0 in a fluid, at `dry` on a dashpot whose
+/// force grows with the square of the velocity.
+struct Bead {
+    k: f64,
+    c: f64,
+    dry: f64,
+}
+
+#[rayleigh_system(rule = [midpoint, gauss])]
+impl Bead {
+    fn lagrangian(&self, q: [f64; 1], _v: [f64; 1]) -> f64 {
+        -0.5 * self.k * q[0] * q[0]
+    }
+
+    fn rayleigh(&self, v: [f64; 1]) -> f64 {
+        0.5 * self.c * v[0] * v[0] + self.dry / 3.0 * v[0] * v[0] * v[0].abs()
+    }
+
+    fn force(&self, _q: [f64; 1], _v: [f64; 1], u: [f64; 1]) -> [f64; 1] {
+        u
+    }
+}
+
+/// First order in time: q = (u/k)(1 − e^(−kt/c)), and √q falls evenly where the force is that of v².
+#[test]
+fn a_bead_without_inertia() -> Result<(), StepError> {
+    let bead = Bead { k: 2.0, c: 0.5, dry: 0.0 };
+    // Without the input the start is known, and the velocity is not.
+    let start = State::from_velocity(&bead, [0.0], [0.0])?;
+    assert_eq!(start.velocity(&bead), Err(StepError::DegenerateLagrangian { column: 0 }));
+    let pulled = bead.driven([3.0]);
+    assert_eq!(start.velocity(&pulled)?, vector![6.0]);
+    let end = pulled.by(Gauss::<4>, 0.05).run(start).nth(19).unwrap()?.state;
+    assert!((end.q[0] - 1.5 * (1.0 - f64::exp(-4.0))).abs() < 1e-12, "{end:?}");
+    assert!((end.velocity(&pulled)?[0] - 6.0 * f64::exp(-4.0)).abs() < 1e-12);
+    // It rests where nothing pulls, and where the spring holds the input.
+    assert_eq!(bead.driven([0.0]).by(Gauss::<2>, 0.1).step(&start)?.state, start);
+    let held = State { q: vector![1.5], ..start };
+    assert_eq!(pulled.by(Gauss::<2>, 0.1).step(&held)?.state, held);
+
+    let bead = Bead { k: 2.0, c: 0.0, dry: 0.5 };
+    let (free, start) = (bead.driven([0.0]), State { q: vector![1.0], p: vector![0.0] });
+    assert!((start.velocity(&free)?[0] + 2.0).abs() < 1e-15);
+    let exact = |t: f64| (1.0 - t).powi(2);
+    let end = free.by(Gauss::<4>, 0.05).run(start).nth(9).unwrap()?.state;
+    assert!((end.q[0] - exact(0.5)).abs() < 1e-9 && (end.velocity(&free)?[0] + 1.0).abs() < 1e-9, "{end:?}");
+    let off = |steps: usize| -> Result<f64, StepError> {
+        let end = free.by(Midpoint, 0.5 / steps as f64).run(start).nth(steps - 1).unwrap()?.state;
+        Ok((end.q[0] - exact(0.5)).abs())
+    };
+    // The rule is exact on q = (1 − t)²: so is its step, but for rounding.
+    assert!(off(10)? < 1e-13 && off(20)? < 1e-13);
+    Ok(())
+}
+
+/// Dry friction at the end of a spring without mass: it holds, or it slides by the force beyond its limit.
+#[test]
+fn dry_friction_without_mass() -> Result<(), StepError> {
+    let start = State { q: vector![1.0, 0.0], p: vector![0.0, 0.0] };
+    let held = Braked { limits: [0.0, 5.0], ..BRAKED };
+    let off = |steps: usize| -> Result<f64, StepError> {
+        let end = held.by(Proximal, 1.0 / steps as f64).run(start).nth(steps - 1).unwrap()?.state;
+        assert!(end.q[1] == 0.0 && end.p[1] == 0.0, "{end:?}");
+        Ok((end.q[0] - f64::cos(2.0)).abs())
+    };
+    assert!((off(200)? / off(400)? - 4.0).abs() < 0.05);
+
+    // ẋ = B x + b of x = (q₀, q₁, v₀), as long as it slides forwards.
+    let limit = 1.0;
+    let slides = Braked { limits: [0.0, limit], ..BRAKED };
+    let rates = Matrix4::new(
+        0.0,
+        0.0,
+        1.0,
+        0.0, //
+        4.0 / 3.0,
+        -4.0 / 3.0,
+        0.0,
+        -limit / 3.0, //
+        -4.0,
+        4.0,
+        0.0,
+        0.0, //
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+    );
+    let exact = (rates * 0.3).exp() * Vector4::new(1.0, 0.0, 0.0, 1.0);
+    let off = |steps: usize| -> Result<f64, StepError> {
+        let end = slides.by(Proximal, 0.3 / steps as f64).run(start).nth(steps - 1).unwrap()?.state;
+        assert!(end.p[1] == 0.0);
+        let of_v = (end.velocity(&slides)?[1] - (4.0 * (exact[0] - exact[1]) - limit) / 3.0).abs();
+        Ok((end.q - vector![exact[0], exact[1]]).amax().max((end.p[0] - exact[2]).abs()).max(of_v))
+    };
+    assert!(off(100)? < 1e-5 && (off(100)? / off(200)? - 4.0).abs() < 0.1);
+    Ok(())
+}
+
+/// A step of a linear system is linear: A of it maps the state to its end. By `Proximal` p1 is 0 there, and
+/// by the others what p0 is, but for its sign.
+#[test]
+fn derivatives_without_mass() -> Result<(), StepError> {
+    let state = State { q: vector![0.7, -0.2], p: vector![0.4, 0.0] };
+    let x = Vector4::new(0.7, -0.2, 0.4, 0.0);
+    let by_midpoint = MAXWELL.by(Midpoint, 0.1).linearized(&state)?;
+    let by_gauss = MAXWELL.by(Gauss::<2>, 0.1).linearized(&state)?;
+    let by_proximal = BRAKED.by(Proximal, 0.1).linearized(&state)?;
+    let found = [
+        (by_midpoint.by_state()?, by_midpoint.step().state, -1.0),
+        (by_gauss.by_state()?, by_gauss.step().state, 1.0),
+        (by_proximal.by_state()?, by_proximal.step().state, 0.0),
+    ];
+    for (a, end, own) in found {
+        let a = a.assembled::<4>();
+        assert!((a * x - Vector4::new(end.q[0], end.q[1], end.p[0], end.p[1])).amax() < 1e-15);
+        assert!((a[(3, 3)] - own).abs() < 1e-14 && a.row(3).columns(0, 3).amax() < 1e-15);
+    }
+    let to_velocity = PhaseMatrix::to_velocity(&MAXWELL, &state.q, &state.velocity(&MAXWELL)?)?;
+    let pull = 4.0 / 3.0;
+    assert_eq!(to_velocity.p_by_q, dalembert::nalgebra::matrix![0.0, 0.0; pull, -pull]);
+    assert_eq!(to_velocity.p_by_p, dalembert::nalgebra::matrix![1.0, 0.0; 0.0, 0.0]);
+    Ok(())
+}
+
+/// The branch of the flow is told by the friction in place of the mass; friction that pushes harder than the
+/// spring pulls leaves it: the control, by Gauss rules of an odd number of stages. What forces took and what the energy lost agree to rounding.
+#[test]
+fn certificate_and_ledger_without_mass() -> Result<(), StepError> {
+    let start = State::from_velocity(&MAXWELL, [1.0, 0.0], [0.0, 0.0])?;
+    for (c, is_on) in [(3.0, true), (-0.05, false)] {
+        let system = Maxwell { c, ..MAXWELL };
+        let (by_midpoint, by_gauss) = (system.by(Midpoint, 0.1), system.by(Gauss::<3>, 0.1));
+        for certificate in [
+            by_midpoint.certificate(&start, &by_midpoint.step(&start)?)?,
+            by_gauss.certificate(&start, &by_gauss.step(&start)?)?,
+        ] {
+            assert_eq!(certificate.on_the_branch_of_the_flow, is_on, "{c}: {certificate:?}");
+            assert!(certificate.condition < 100.0 && certificate.correction < 1e-14);
+        }
+    }
+    let by = MAXWELL.by(Midpoint, 0.1);
+    let end = by.step(&start)?.state;
+    let ledger = by.ledger(&start, &end)?;
+    assert!(ledger.dissipated > 0.01 && ledger.remainder().abs() < 1e-15, "{ledger:?}");
+    Ok(())
+}
+
+/// A mass that is 0 at one configuration alone is none of these: at its pole a damped sphere has singular
+/// coordinates.
+#[test]
+fn a_pole_is_no_coordinate_without_mass() {
+    #[rayleigh_system(rule = midpoint)]
+    fn sphere(q: [f64; 2], v: [f64; 2], c: f64) -> (f64, f64) {
+        let turning = q[0].sin() * v[1];
+        (0.5 * (v[0] * v[0] + turning * turning) - q[0].cos(), 0.5 * c * (v[0] * v[0] + v[1] * v[1]))
+    }
+    let found = State::from_velocity(&Sphere { c: 0.1 }, [0.0, 0.3], [0.1, 0.2]);
+    assert_eq!(found, Err(StepError::SingularCoordinates { column: 1 }));
+    let state = State { q: vector![0.0, 0.3], p: vector![0.1, 0.0] };
+    let error = Sphere { c: 0.1 }.by(Midpoint, 0.1).step(&state).unwrap_err();
+    assert_eq!(error, StepError::SingularCoordinates { column: 1 });
+}
