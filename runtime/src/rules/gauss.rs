@@ -73,6 +73,10 @@ use solve::solve;
 /// nonlinear V with C = 2aM, where the exact motion has one
 /// ([`rayleigh_step`](crate::Discretised::rayleigh_step)).
 ///
+/// Where L does not hold the velocity of a coordinate that friction damps, ∂L/∂v = 0 = P at the stages leaves
+/// G = 0 there, and p1 = p0 = 0 to rounding: collocation of what remains, of order 2S in q and in the other
+/// momenta. The fixed point does not serve, so that each step is one of the matrices.
+///
 /// A [`Trajectory`](crate::Trajectory) keeps the stages of the last step ([`StageHistory`]), extrapolates
 /// them to those of the next, and adds up q and p with compensation.
 ///

@@ -66,6 +66,9 @@ use crate::system::{Driven, SmoothRayleigh};
 /// reactions of constraints do. Limits and slips are those at q̄ in both lines, so that F(q) does not take
 /// from the order.
 ///
+/// Where L does not hold the velocity of a coordinate, the other forces at the end, R_s among them, balance
+/// friction in the second line, and p1 is 0.
+///
 /// Not self-adjoint. A, B are those of what sticks and what slides; at the limit of the two there is none
 /// ([`StepError::AtLimitOfFriction`]). When each element comes to stick and begins to slip is told by
 /// [`stick_slip`](crate::Trajectory::stick_slip).

@@ -63,7 +63,8 @@ pub enum StepError {
         /// The operation that has no derivative there, where it is known.
         place: Option<Place>,
     },
-    /// ∂²L/∂v² is singular: momenta do not determine velocities.
+    /// ∂²L/∂v² is singular: momenta do not determine velocities, nor does friction where L does not hold
+    /// one, or the rule takes no coordinate without mass.
     DegenerateLagrangian {
         /// The coordinate whose pivot vanishes.
         column: usize,

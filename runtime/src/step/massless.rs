@@ -42,7 +42,7 @@ impl<const N: usize> Massless<N> {
         Self([false; N])
     }
 
-    /// Those of the system, as its fields are. A coordinate without mass at q alone, as the azimuth at a pole
+    /// The coordinates of the system as its fields are. A coordinate without mass at q alone, as the azimuth at a pole
     /// is, or at rest alone, as by |v|⁴, is none of them. On constraints there are none.
     #[cold]
     #[inline(never)]

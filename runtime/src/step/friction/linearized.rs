@@ -90,7 +90,7 @@ pub struct LinearizedFriction<S: Scalar, const N: usize, const M: usize> {
     half_slip: SMatrix<S, M, N>,
     mass: SMatrix<S, N, N>,
     momentum_by_q: SMatrix<S, N, N>,
-    /// That of the equations for v1: in coordinates without mass of the forces.
+    /// ∂/∂q of the equations for v1, which are balances of forces in coordinates without mass.
     end_by_q: SMatrix<S, N, N>,
     massless: Massless<N>,
 }
