@@ -118,7 +118,7 @@ impl<const S: usize> Gauss<S> {
 }
 
 /// The step to the stages that were solved for.
-#[inline]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn completed<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
     problem: &Problem<'_, L, N, S>,
     solution: &Solution<T, N, S>,
@@ -244,7 +244,8 @@ fn by_matrices<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, co
     state: &State<T, N>,
 ) -> Option<(Solution<T, N, S>, Completed<T, N>)> {
     let solution = solve::by_matrices(problem, &state.velocity(problem.system).ok()?).ok()?;
-    Some((solution, completed(problem, &solution).ok()?))
+    let completed = completed(problem, &solution).ok()?;
+    Some((solution, completed))
 }
 
 /// The stages of the step from `state`; `guess` serves all of them.

@@ -265,7 +265,8 @@ const NEARLY: [(f64, [f64; 4]); 4] = [
 ];
 
 /// Steps that do not resolve how the velocity of a mass so light decays, from a start that asks for it: q is
-/// that of the motion, v by `Fitted` alone, to ½h v̇. By the others v alternates about it for ever: the control.
+/// that of the motion, v by `Fitted` alone, to ½h v̇. By the others v alternates about it for ever: the
+/// control.
 #[test]
 fn coordinates_with_nearly_no_mass() -> Result<(), StepError> {
     for (mass, [q0, q1, v0, v1]) in NEARLY {
@@ -414,7 +415,8 @@ fn derivatives_without_mass() -> Result<(), StepError> {
 }
 
 /// The branch of the flow is told by the friction in place of the mass; friction that pushes harder than the
-/// spring pulls leaves it: the control, by Gauss rules of an odd number of stages. What forces took and what the energy lost agree to rounding.
+/// spring pulls leaves it: the control, by Gauss rules of an odd number of stages. What forces took and what
+/// the energy lost agree to rounding.
 #[test]
 fn certificate_and_ledger_without_mass() -> Result<(), StepError> {
     let start = State::from_velocity(&MAXWELL, [1.0, 0.0], [0.0, 0.0])?;
