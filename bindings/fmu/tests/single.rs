@@ -51,7 +51,7 @@ fn a_unit_in_single_precision_steps_as_rust_does() {
     unit.step(5.0, 0.1).unwrap();
 }
 
-/// Without mass it follows the slope of the potential: v = −∇V/k, and on the axis of q₁ it comes to rest at 1.
+/// Without mass it follows the slope of the potential, v = −∇V/k: on the axis of q₁ it comes to rest at 1.
 #[test]
 fn a_unit_without_mass_steps() {
     let mut unit = Imported::new(UNIT.description(), &UNIT.token());

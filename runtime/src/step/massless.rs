@@ -5,8 +5,8 @@
 //! ∂L/∂q + f_L = 0,  p = 0        of one without; its velocity stands in f_L alone, with −∂f_L/∂v regular
 //! ```
 //!
-//! Steps do not ask for them: by rules that step such systems p0(v̄) holds the friction, and its Newton matrix
-//! is regular as it is. What is here is asked where ∂²L/∂v² turns out to be singular.
+//! Steps do not ask for them: by rules that step such systems p0(v̄) holds the friction, and its Newton
+//! matrix is regular as it is. What is here is asked where ∂²L/∂v² turns out to be singular.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -42,8 +42,8 @@ impl<const N: usize> Massless<N> {
         Self([false; N])
     }
 
-    /// The coordinates of the system as its fields are. A coordinate without mass at q alone, as the azimuth at a pole
-    /// is, or at rest alone, as by |v|⁴, is none of them. On constraints there are none.
+    /// The coordinates of the system as its fields are. A coordinate without mass at q alone, as the azimuth
+    /// at a pole is, or at rest alone, as by |v|⁴, is none of them. On constraints there are none.
     #[cold]
     #[inline(never)]
     pub(crate) fn of<L: Lagrangian<N> + ?Sized>(system: &L, q: &SVector<L::Scalar, N>) -> Self {
