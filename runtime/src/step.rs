@@ -27,6 +27,7 @@ mod legendre;
 mod linearizable;
 mod linearization;
 mod linearized_segment;
+pub(crate) mod massless;
 pub(crate) mod newton;
 mod outcome;
 mod regular;

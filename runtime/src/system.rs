@@ -37,6 +37,7 @@ pub use crate::numbers::{
     Interpolation, LaneVector, Lanes, Mask, Scalar, Table, TableError, TableSlice, Variations,
 };
 pub use acting_force::ActingForce;
+pub(crate) use acting_force::force_of_rayleigh;
 pub use constrained::{
     Constrained, ConstrainedParameters, ConstraintsBy, first_rows, last_rows, normals, violation,
 };

@@ -7,6 +7,7 @@
 mod boundary {
     mod constrained;
     mod failed_steps;
+    mod massless;
     mod random_calls;
     mod wrong_calls;
 }

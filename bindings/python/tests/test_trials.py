@@ -91,3 +91,13 @@ def test_constraints_of_velocity_have_a_ledger_and_no_symmetries():
     (report,) = trials.Rods([1.0, 0.7]).symmetries(h=0.01, generators={"turn": (turn, np.zeros(4))}, **box)
     # Gravity is not.
     assert report.is_consistent and not report.is_symmetry_of_lagrangian
+
+
+def test_a_coordinate_without_mass_has_the_velocity_that_friction_makes():
+    """A spring and a dashpot in series: at t = 5 by the matrix exponential."""
+    at = {"h": 0.1, "steps": 50, "q": [1, 0], "v": [0, 0], "rule": "gauss_4"}
+    run = trials.Maxwell([1.0, 0.0], 4.0, 3.0).run(**at)
+    assert run.q[-1] == pytest.approx([-0.0357155764308, -8.35575944877e-5], abs=1e-12)
+    assert run.v[0] == pytest.approx([0.0, 4 / 3]) and run.v[-1][1] == pytest.approx(-0.0475093584484, abs=1e-12)
+    with pytest.raises(trials.StepError, match="coordinate 1"):
+        trials.Maxwell([1.0, 0.0], 4.0, 0.0).run(**at)

@@ -33,8 +33,9 @@ pub struct Certificate<S> {
     /// Whether the determinant of the step's equations has the sign that it has for small h. Otherwise an
     /// odd number of folds lies between this step and those of small h: the root belongs to another
     /// branch than the flow, as with negative damping past hr = −2m. The equations are p0(v̄) = p0, with
-    /// det ∂p0/∂v̄ against det ∂²L/∂v²; those of all stages for [`Gauss`](crate::Gauss), where det ∂p0/∂v̄
-    /// changes sign through infinity at conjugate points, past which a step is as good as before.
+    /// det ∂p0/∂v̄ against det ∂²L/∂v², with friction in its place in coordinates without mass; those of all
+    /// stages for [`Gauss`](crate::Gauss), where det ∂p0/∂v̄ changes sign through infinity at conjugate
+    /// points, past which a step is as good as before.
     pub on_the_branch_of_the_flow: bool,
 }
 

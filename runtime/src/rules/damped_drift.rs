@@ -242,7 +242,7 @@ where
 
     /// Under damping that excites, what is left of M in p0 is below any share of it.
     #[inline]
-    fn inertia(&self, _: &SVector<L::Scalar, N>, _: &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N> {
+    fn inertia(&self, _: &Segment<L::Scalar, N>) -> SMatrix<L::Scalar, N, N> {
         self.drift.before
     }
 

@@ -30,6 +30,7 @@ use nalgebra::SVector;
 
 use super::SelfAdjoint;
 use crate::numbers::{Compensated, Scalar, lanes::splat};
+use crate::step::massless::inertia;
 use crate::step::{
     Discrete, DiscreteObjects, EquationAt, Flow, LinearizedStep, Quantity, Report, Segment, State, Step,
     StepError, newton::ITERATIONS, of_any_step,
@@ -72,6 +73,10 @@ use solve::solve;
 /// nonlinear V with C = 2aM, where the exact motion has one
 /// ([`rayleigh_step`](crate::Discretised::rayleigh_step)).
 ///
+/// Where L does not hold the velocity of a coordinate that friction damps, ∂L/∂v = 0 = P at the stages leaves
+/// G = 0 there, and p1 = p0 = 0 to rounding: collocation of what remains, of order 2S in q and in the other
+/// momenta. The fixed point does not serve, so that each step is one of the matrices.
+///
 /// A [`Trajectory`](crate::Trajectory) keeps the stages of the last step ([`StageHistory`]), extrapolates
 /// them to those of the next, and adds up q and p with compensation.
 ///
@@ -113,11 +118,11 @@ impl<const S: usize> Gauss<S> {
 }
 
 /// The step to the stages that were solved for.
-#[inline]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn completed<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
     problem: &Problem<'_, L, N, S>,
     solution: &Solution<T, N, S>,
-) -> Result<(Step<T, N>, [Compensated<T, N>; 2]), StepError> {
+) -> Result<Completed<T, N>, StepError> {
     let displacement = problem.sum(&solution.v);
     let ends = [problem.q0.plus(&displacement), problem.p0.plus(&problem.sum(&solution.rate))];
     let state = State { q: ends[0].value, p: ends[1].value };
@@ -154,7 +159,7 @@ where
         step: &Step<T, N>,
         h: T,
     ) -> Result<EquationAt<T, N>, StepError> {
-        let mass = self.lagrangian_derivatives(&state.q, &step.velocity).d22;
+        let mass = inertia(self, &state.q, &step.velocity, h);
         let equation = |p0, matrix, solved: &SolvedSegment<'_, L, N, S>| EquationAt {
             p0,
             matrix,
@@ -199,6 +204,8 @@ where
 {
     type RunMemory = StageHistory<T, N, S>;
 
+    const TAKES_MASSLESS: bool = true;
+
     /// By collocation; `guess` serves all stages.
     fn step(
         &self,
@@ -207,7 +214,10 @@ where
         guess: Option<&SVector<T, N>>,
     ) -> Result<Step<T, N>, StepError> {
         let (problem, solution) = solved::<_, _, N, S>(self, state, h, guess)?;
-        Ok(completed(&problem, &solution)?.0)
+        match completed(&problem, &solution) {
+            Ok((step, _)) => Ok(step),
+            Err(error) => by_matrices(&problem, state).map(|(_, (step, _))| step).ok_or(error),
+        }
     }
 
     /// By the stages of the step itself.
@@ -220,6 +230,22 @@ where
         let (step, solved) = solved_segment::<_, _, N, S>(self, state, h, guess)?;
         Ok((step, solved.by_state()?.matrix()))
     }
+}
+
+/// A step and both ends.
+type Completed<T, const N: usize> = (Step<T, N>, [Compensated<T, N>; 2]);
+
+/// The stages and the step without the fixed point, which corrects by masses alone: where a residual is 0 in
+/// a coordinate that has none, by 0/0.
+#[cold]
+#[inline(never)]
+fn by_matrices<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    state: &State<T, N>,
+) -> Option<(Solution<T, N, S>, Completed<T, N>)> {
+    let solution = solve::by_matrices(problem, &state.velocity(problem.system).ok()?).ok()?;
+    let completed = completed(problem, &solution).ok()?;
+    Some((solution, completed))
 }
 
 /// The stages of the step from `state`; `guess` serves all of them.
@@ -237,7 +263,7 @@ fn solved<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, con
     let solution = match guess {
         Some(v) => {
             StepError::require_finite(v, Quantity::Velocity)?;
-            solve(&problem, v).map_err(|error| of_any_step(system, state, error))?
+            solve(&problem, v).map_err(|error| of_any_step(system, state, true, error))?
         }
         None => solved_from(&problem, state)?,
     };
@@ -309,7 +335,14 @@ fn solved_segment<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
     h: T,
     guess: Option<&SVector<T, N>>,
 ) -> Result<(Step<T, N>, SolvedSegment<'a, L, N, S>), StepError> {
-    let (problem, solution) = solved(system, state, h, guess)?;
-    let step = completed(&problem, &solution)?.0;
+    let (problem, mut solution) = solved(system, state, h, guess)?;
+    let step = match completed(&problem, &solution) {
+        Ok((step, _)) => step,
+        Err(error) => {
+            let (again, (step, _)) = by_matrices(&problem, state).ok_or(error)?;
+            solution = again;
+            step
+        }
+    };
     Ok((step, SolvedSegment::of_stages(problem, solution.v)?))
 }

@@ -26,6 +26,10 @@ use crate::step::SolvedForVelocity;
 /// ```
 ///
 /// so one evaluation of the mixed derivative along a and b is the Newton matrix.
+///
+/// **Without mass**, where L does not hold the velocity of a coordinate that friction damps, p0 = −(h/2) G
+/// and p1 = (h/2) G with the force G of the coordinate at (q̄, v̄): from p0 = 0 the step finds v̄ with G = 0,
+/// and p1 is 0 to rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Midpoint;
 
@@ -33,7 +37,9 @@ impl DisplacementRule for Midpoint {
     const NODES: &'static [Node] = &[Node { position: 0.5, weight: 1.0 }];
 }
 
-impl SolvedForVelocity for Midpoint {}
+impl SolvedForVelocity for Midpoint {
+    const TAKES_MASSLESS: bool = true;
+}
 
 impl SelfAdjoint for Midpoint {}
 

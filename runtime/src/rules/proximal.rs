@@ -66,13 +66,18 @@ use crate::system::{Driven, SmoothRayleigh};
 /// reactions of constraints do. Limits and slips are those at q̄ in both lines, so that F(q) does not take
 /// from the order.
 ///
+/// Where L does not hold the velocity of a coordinate, the other forces at the end, R_s among them, balance
+/// friction in the second line, and p1 is 0.
+///
 /// Not self-adjoint. A, B are those of what sticks and what slides; at the limit of the two there is none
 /// ([`StepError::AtLimitOfFriction`]). When each element comes to stick and begins to slip is told by
 /// [`stick_slip`](crate::Trajectory::stick_slip).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Proximal;
 
-impl SolvedForVelocity for Proximal {}
+impl SolvedForVelocity for Proximal {
+    const TAKES_MASSLESS: bool = true;
+}
 
 /// L_d and f_d of the midpoint rule, without the kinks: their forces hold the motion beside f_d, as reactions
 /// of constraints do.

@@ -7,6 +7,7 @@ use nalgebra::SVector;
 use crate::numbers::NewtonMatrix;
 use crate::numbers::{Derivatives, determinant_sign};
 use crate::step::discrete::explained_on;
+use crate::step::massless::inertia;
 use crate::step::{
     Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteObjects, EquationAt, Flow, Fused, Momenta,
     Segment, State, Step, StepError,
@@ -158,7 +159,7 @@ where
         }
         let segment = Segment { q0: state.q, v: step.velocity, h };
         let kernel = self.step_kernel(&segment);
-        let mass = self.lagrangian_derivatives(&state.q, &step.velocity).d22;
+        let mass = inertia(self, &state.q, &step.velocity, h);
         let explained = |error| explained_on::<L, R, N>(self, &segment, error);
         StepError::require_finite(&kernel.p0, Quantity::Derivatives).map_err(explained)?;
         if let Some(index) = (0..N).find(|&i| !(kernel.matrix.row_is_finite(i) && mass.row_is_finite(i))) {

@@ -6,8 +6,8 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::step::cause::cause_of;
+use crate::step::massless::inertia;
 use crate::step::{Discrete, Fused, Momenta, Segment, StepError, StepKernel};
-use crate::system::derivatives_apart;
 
 /// The kind of the equation p0(q, v) = p, as known before it is solved.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -37,8 +37,9 @@ pub(crate) trait StepEquation<S: Scalar, const N: usize> {
         None
     }
 
-    /// The mass that the velocity has in p0: the metric that tells which of two velocities is longer.
-    fn inertia(&self, q: &SVector<S, N>, v: &SVector<S, N>) -> SMatrix<S, N, N>;
+    /// The mass that the velocity has in p0 at the start of a segment, and what friction makes of it where
+    /// there is none: the metric that tells which of two velocities is longer.
+    fn inertia(&self, segment: &Segment<S, N>) -> SMatrix<S, N, N>;
 
     /// Sizes of the terms that cancel in p0.
     fn cancelling(&self, segment: &Segment<S, N>) -> SVector<S, N> {
@@ -62,6 +63,14 @@ pub(crate) trait StepEquation<S: Scalar, const N: usize> {
         Self: Sized,
     {
         Equation::General
+    }
+
+    /// Whether it is one for coordinates without mass too: [`Flow::TAKES_MASSLESS`](crate::step::Flow).
+    fn takes_massless(&self) -> bool
+    where
+        Self: Sized,
+    {
+        false
     }
 
     /// The cause of numbers that are not finite.
@@ -104,8 +113,8 @@ where
     }
 
     #[inline]
-    fn inertia(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N> {
-        derivatives_apart(self.system, q, v).d22
+    fn inertia(&self, segment: &Segment<L::Scalar, N>) -> SMatrix<L::Scalar, N, N> {
+        inertia(self.system, &segment.q0, &segment.v, segment.h)
     }
 
     #[inline]
@@ -116,6 +125,11 @@ where
     #[inline]
     fn kind(&self) -> Equation {
         if <L as Fused<R, N>>::LINEAR { Equation::Linear } else { Equation::General }
+    }
+
+    #[inline]
+    fn takes_massless(&self) -> bool {
+        L::TAKES_MASSLESS
     }
 
     #[inline]
@@ -156,7 +170,7 @@ where
     }
 
     #[inline]
-    fn inertia(&self, q: &SVector<S, N>, v: &SVector<S, N>) -> SMatrix<S, N, N> {
-        (self.inertia)(q, v)
+    fn inertia(&self, segment: &Segment<S, N>) -> SMatrix<S, N, N> {
+        (self.inertia)(&segment.q0, &segment.v)
     }
 }

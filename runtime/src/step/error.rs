@@ -63,7 +63,8 @@ pub enum StepError {
         /// The operation that has no derivative there, where it is known.
         place: Option<Place>,
     },
-    /// ∂²L/∂v² is singular: momenta do not determine velocities.
+    /// ∂²L/∂v² is singular: momenta do not determine velocities, nor does friction where L does not hold
+    /// one, or the rule takes no coordinate without mass.
     DegenerateLagrangian {
         /// The coordinate whose pivot vanishes.
         column: usize,
@@ -274,7 +275,8 @@ impl fmt::Display for StepError {
                 write!(
                     f,
                     "∂²L/∂v² is singular (pivot of coordinate {column}): momenta do not determine velocities; give \
-                     coordinate {column} a kinetic energy of its own, or remove it"
+                     coordinate {column} a kinetic energy of its own, or remove it; where R damps it, `Midpoint`, `Proximal` \
+                     and Gauss rules step it without, of a system with an input as its view"
                 )?;
                 if cfg!(feature = "std") {
                     return Ok(());

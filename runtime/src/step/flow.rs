@@ -20,6 +20,10 @@ pub trait Flow<M, const N: usize>: Lagrangian<N> {
     /// The memory of a run from step to step.
     type RunMemory: Memory<Self, M, N>;
 
+    /// Whether steps are those of the motion where L does not hold the velocity of a coordinate that friction
+    /// damps: where ∂²L/∂v² is singular otherwise, a step is refused.
+    const TAKES_MASSLESS: bool = false;
+
     /// The step of size `h` from `state`. `guess` is a guess for v̄ = (q1 − q0)/h.
     ///
     /// # Errors

@@ -5,6 +5,7 @@ use nalgebra::SVector;
 use crate::numbers::{Scalar, linear};
 use crate::step::cause::{explained_by_lagrangian, of_violation};
 use crate::step::equation::Alone;
+use crate::step::massless::Massless;
 use crate::step::regular::{beside_velocity, require_regular};
 use crate::step::{
     State, StepError, StepKernel, newton,
@@ -15,9 +16,14 @@ use crate::system::{Lagrangian, Quantity, derivatives_apart, verification::aroun
 impl<S: Scalar, const N: usize> State<S, N> {
     /// The state (q, ∂L/∂v(q, v)), by the Legendre transform of L.
     ///
+    /// **Without mass.** L need not hold the velocity of a coordinate that friction damps, the end of a
+    /// dashpot, say, or a bead in a fluid without inertia. Its p is 0, and friction makes its velocity what
+    /// it is ([`velocity`](Self::velocity)): the v given there is left out, 0 for instance.
+    ///
     /// # Errors
     /// [`StepError::NonFinite`] if q, v, p or ∂²L/∂v² is not finite, [`StepError::DegenerateLagrangian`] if
-    /// ∂²L/∂v² is singular, at v and next to it: that of |v|⁴ is singular at v = 0 alone;
+    /// ∂²L/∂v² is singular, at v and next to it: that of |v|⁴ is singular at v = 0 alone; in coordinates
+    /// without mass if ∂²R/∂v² is, less ∂f/∂v;
     /// [`StepError::SingularCoordinates`] if it is so at q alone; [`StepError::GeneratedDiffers`] if the
     /// derivatives generated belong to another function; [`StepError::OffConstraint`] and
     /// [`StepError::LeavesConstraint`] where a constraint is violated by more than rounding explains,
@@ -35,7 +41,11 @@ impl<S: Scalar, const N: usize> State<S, N> {
         let l = derivatives_apart(system, &q, &v);
         StepError::require_finite(&l.d2, Quantity::Derivatives)
             .map_err(|error| explained_by_lagrangian(system, &q, &v, error))?;
-        require_regular(&l.d22).or_else(|error| require_regular_nearby(system, &q, &v, error))?;
+        if require_regular(&l.d22).is_err() {
+            let massless = Massless::of(system, &q);
+            let found = massless.require_determined(system, &q, &v);
+            found.or_else(|error| require_determined_nearby(system, &massless, &q, &v, error))?;
+        }
         if L::IS_CONSTRAINED
             && let Some(violation) = system.violation(&q, &v)
         {
@@ -50,20 +60,32 @@ impl<S: Scalar, const N: usize> State<S, N> {
     /// away from it. Such an L has velocities and steps, but a run through a turning point, v = 0, does not
     /// have the order of its rule: v = p^{1/3} for ¼|v|⁴ has no derivative there.
     ///
+    /// **Without mass** the velocity of a coordinate is that at which friction balances the other forces,
+    /// ∂R/∂v = ∂L/∂q + f, whatever p is there; where f takes an input, of the view that holds it.
+    ///
     /// # Errors
     /// As [`Discretised::step`](crate::Discretised::step); [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is
-    /// singular everywhere, [`StepError::SingularCoordinates`] if it is so at q alone,
-    /// [`StepError::NoVelocity`] if no velocity in reach has this momentum.
+    /// singular everywhere and friction does not determine what it leaves open,
+    /// [`StepError::SingularCoordinates`] if it is so at q alone, [`StepError::NoVelocity`] if no velocity in
+    /// reach has this momentum.
     pub fn velocity<L: Lagrangian<N, Scalar = S> + ?Sized>(
         &self,
         system: &L,
     ) -> Result<SVector<S, N>, StepError> {
+        self.velocity_by(system, true)
+    }
+
+    /// [`velocity`](Self::velocity), of coordinates without mass where they are `allowed`.
+    pub(crate) fn velocity_by<L: Lagrangian<N, Scalar = S> + ?Sized>(
+        &self,
+        system: &L,
+        allowed: bool,
+    ) -> Result<SVector<S, N>, StepError> {
         self.require_finite()?;
         let rest = nalgebra::zero();
         let at_rest = system.lagrangian_derivatives(&self.q, &rest);
-        if let Err(error) = require_regular(&at_rest.d22) {
-            require_regular_nearby(system, &self.q, &rest, error)?;
-            return self.velocity_by_newton(system, Some(error));
+        if require_regular(&at_rest.d22).is_err() {
+            return self.velocity_of_singular(system, allowed);
         }
         let mut v = linear::solve_apart(&at_rest.d22, &(self.p - at_rest.d2)).unwrap_or(rest);
         let mut mass = at_rest.d22;
@@ -75,7 +97,29 @@ impl<S: Scalar, const N: usize> State<S, N> {
         }
         let residual = system.lagrangian_gradient(&self.q, &v).d2 - self.p;
         let (_, _, is_root) = held_against(&residual, &estimated_floor(&self.p, &mass, &v));
-        if is_root { Ok(v) } else { self.velocity_by_newton(system, None) }
+        if is_root { Ok(v) } else { self.velocity_by_newton(system, &Massless::none(), None) }
+    }
+
+    /// Where ∂²L/∂v² is singular or not finite at rest.
+    #[cold]
+    #[inline(never)]
+    fn velocity_of_singular<L: Lagrangian<N, Scalar = S> + ?Sized>(
+        &self,
+        system: &L,
+        allowed: bool,
+    ) -> Result<SVector<S, N>, StepError> {
+        let rest = nalgebra::zero();
+        let massless = if allowed { Massless::of(system, &self.q) } else { Massless::none() };
+        if let Some(column) = massless.first()
+            && system.massless_force(&self.q, &rest).is_none()
+        {
+            return Err(StepError::DegenerateLagrangian { column });
+        }
+        let found = massless.require_determined(system, &self.q, &rest);
+        if let Err(error) = found {
+            require_determined_nearby(system, &massless, &self.q, &rest, error)?;
+        }
+        self.velocity_by_newton(system, &massless, found.err())
     }
 
     /// By Newton's method from rest or, with the `error` that this led to, from away from it.
@@ -84,19 +128,25 @@ impl<S: Scalar, const N: usize> State<S, N> {
     fn velocity_by_newton<L: Lagrangian<N, Scalar = S> + ?Sized>(
         &self,
         system: &L,
+        massless: &Massless<N>,
         error: Option<StepError>,
     ) -> Result<SVector<S, N>, StepError> {
         let rest = nalgebra::zero();
+        let balance =
+            |q: &SVector<S, N>, v: &SVector<S, N>| massless.balance_at(system, q, v, S::constant(1.0));
         // 𝔽L is the limit h → 0 of the discrete transforms.
         let equation = Alone {
             kernel: |q: &SVector<S, N>, v: &SVector<S, N>| {
-                let l = derivatives_apart(system, q, v);
-                StepKernel { p0: l.d2, matrix: l.d22 }
+                let balance = balance(q, v);
+                StepKernel { p0: balance.value, matrix: balance.by_v }
             },
-            momentum: |q: &SVector<S, N>, v: &SVector<S, N>| system.lagrangian_gradient(q, v).d2,
-            inertia: |q: &SVector<S, N>, v: &SVector<S, N>| derivatives_apart(system, q, v).d22,
+            momentum: |q: &SVector<S, N>, v: &SVector<S, N>| {
+                if massless.are_any() { balance(q, v).value } else { system.lagrangian_gradient(q, v).d2 }
+            },
+            inertia: |q: &SVector<S, N>, v: &SVector<S, N>| balance(q, v).by_v,
         };
-        newton::root_from_rest(&equation, self, error).map_err(|error| match error {
+        let state = State { q: self.q, p: massless.without(&self.p) };
+        newton::root_from_rest(&equation, &state, error).map_err(|error| match error {
             StepError::NoRealSolution { residual, .. } | StepError::NotConverged { residual, .. } => {
                 StepError::NoVelocity { residual }
             }
@@ -116,16 +166,19 @@ impl<S: Scalar, const N: usize> State<S, N> {
     }
 }
 
-/// Fails with `error` where ∂²L/∂v² is not finite or cannot be inverted at a point next to (q, v) either.
-/// Where it can, (q, v) is a singular point of a Lagrangian that is regular.
+/// Fails with `error` where ∂²L/∂v², with friction in its place in coordinates without mass, is not finite or
+/// cannot be inverted at a point next to (q, v) either. Where it can, (q, v) is a singular point of a system
+/// that is regular.
 #[cold]
 #[inline(never)]
-fn require_regular_nearby<L: Lagrangian<N> + ?Sized, const N: usize>(
+fn require_determined_nearby<L: Lagrangian<N> + ?Sized, const N: usize>(
     system: &L,
+    massless: &Massless<N>,
     q: &SVector<L::Scalar, N>,
     v: &SVector<L::Scalar, N>,
     error: StepError,
 ) -> Result<(), StepError> {
-    require_regular(&derivatives_apart(system, q, &beside_velocity(v)).d22)
+    massless
+        .require_determined(system, q, &beside_velocity(v))
         .map_err(|_| explained_by_lagrangian(system, q, v, error))
 }

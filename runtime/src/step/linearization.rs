@@ -29,6 +29,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{Derivatives, Scalar, Singular, derivatives::linear, linear};
 use crate::step::cause::explained_by_lagrangian;
+use crate::step::massless::Massless;
 use crate::step::{DiscreteForceDerivatives, Momenta, MomentaBy, StepError};
 use crate::system::{Lagrangian, Quantity};
 
@@ -207,22 +208,29 @@ impl<S: Scalar, const N: usize> PhaseMatrix<S, N> {
     /// blocks of p stand for those of v. What a sensor of velocities makes of a state.
     ///
     /// # Errors
-    /// [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular, [`StepError::SingularCoordinates`] if it
-    /// is so at q alone.
+    /// [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular and friction does not determine velocities
+    /// either, [`StepError::SingularCoordinates`] if it is so at q alone.
     pub fn to_velocity<L: Lagrangian<N, Scalar = S>>(
         system: &L,
         q: &SVector<S, N>,
         v: &SVector<S, N>,
     ) -> Result<Self, StepError> {
         let l = system.lagrangian_derivatives(q, v);
-        let v_by_p = linear::inverse(&l.d22).map_err(|Singular { column }| {
+        let mut found = linear::inverse(&l.d22);
+        let (mut by_q, mut massless) = (l.d12.transpose(), Massless::none());
+        if found.is_err() {
+            massless = Massless::of(system, q);
+            let balance = massless.balance_at(system, q, v, S::constant(1.0));
+            (found, by_q) = (linear::inverse(&balance.by_v), balance.by_q);
+        }
+        let v_by = found.map_err(|Singular { column }| {
             explained_by_lagrangian(system, q, v, StepError::DegenerateLagrangian { column })
         })?;
         Ok(Self {
             q_by_q: SMatrix::identity(),
             q_by_p: SMatrix::zeros(),
-            p_by_q: -(v_by_p * l.d12.transpose()),
-            p_by_p: v_by_p,
+            p_by_q: -(v_by * by_q),
+            p_by_p: massless.without(&v_by.transpose()).transpose(),
         })
     }
 

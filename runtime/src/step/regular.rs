@@ -8,6 +8,10 @@ use crate::step::StepError;
 use crate::system::derivatives_apart;
 use crate::system::{Lagrangian, Quantity};
 
+/// Shares of a coordinate, or of 1 where it is less; entries of ∂²L/∂v² may fall with their squares. L may
+/// not be defined so far from q: then the next.
+const SHARES: [f64; 3] = [1.0 / 16.0, 1.0 / 256.0, 1.0 / 4096.0];
+
 /// Fails where ∂²L/∂v² is not finite or cannot be inverted.
 pub(crate) fn require_regular<S: Scalar, const N: usize>(
     mass_matrix: &SMatrix<S, N, N>,
@@ -29,16 +33,8 @@ pub(super) fn is_regular_beside<L: Lagrangian<N> + ?Sized, const N: usize>(
     q: &SVector<L::Scalar, N>,
     v: &SVector<L::Scalar, N>,
 ) -> bool {
-    /// Shares of a coordinate, or of 1 where it is less; entries of ∂²L/∂v² may fall with their squares.
-    /// L may not be defined so far from q: then the next.
-    const SHARES: [f64; 3] = [1.0 / 16.0, 1.0 / 256.0, 1.0 / 4096.0];
-    let constant = L::Scalar::constant;
     let at = |share: f64, v: &SVector<L::Scalar, N>| {
-        let size = q.map(|of| {
-            let size = if of < constant(0.0) { -of } else { of };
-            if size > constant(1.0) { size } else { constant(1.0) }
-        });
-        require_regular(&derivatives_apart(system, &(q + uneven(size, share)), v).d22)
+        require_regular(&derivatives_apart(system, &(q + uneven(q.map(size), share)), v).d22)
     };
     // By rounding alone a matrix that is singular everywhere may pass somewhere: not at all of these.
     let is_regular = |v: &SVector<L::Scalar, N>| {
@@ -76,6 +72,18 @@ pub(super) fn is_regular_beside<L: Lagrangian<N> + ?Sized, const N: usize>(
 pub(super) fn beside_velocity<S: Scalar, const N: usize>(v: &SVector<S, N>) -> SVector<S, N> {
     let size = if v.amax() > S::constant(0.0) { v.amax() } else { S::constant(1.0) };
     v + uneven(SVector::repeat(size), 1.0 / 8.0)
+}
+
+/// A configuration beside this one.
+pub(super) fn beside<S: Scalar, const N: usize>(q: &SVector<S, N>) -> SVector<S, N> {
+    q + uneven(q.map(size), SHARES[1])
+}
+
+/// |x|, or 1 where it is less.
+fn size<S: Scalar>(of: S) -> S {
+    let one = S::constant(1.0);
+    let size = if of < S::constant(0.0) { -of } else { of };
+    if size > one { size } else { one }
 }
 
 /// This share of each entry, or more: no two alike, since a point that is symmetric could be singular once

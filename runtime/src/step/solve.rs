@@ -5,6 +5,7 @@ use nalgebra::SVector;
 use crate::numbers::{Scalar, nonlinear::Way};
 use crate::step::cause::{explained, explained_by_lagrangian};
 use crate::step::equation::{Equation, StepEquation};
+use crate::step::massless::Massless;
 use crate::step::{
     BoundedStep, Segment, State, Step, StepError, newton,
     newton::{NotSolved, StepProblem},
@@ -27,7 +28,7 @@ where
     require_step_size(h)?;
     let start = match guess {
         Some(v) => *v,
-        None => first_guess(system, equation.kind(), state)?,
+        None => first_guess(system, equation, state)?,
     };
     let solution = match newton::quick(equation, state, h, start) {
         Ok(solution) => solution,
@@ -40,7 +41,8 @@ where
             };
             problem.solved(way, &reached.v).map_err(|NotSolved { error, lost }| {
                 let error = explained(error, &|| equation.cause(&lost?));
-                in_arguments(state, guess).unwrap_or_else(|| of_any_step(system, state, error))
+                in_arguments(state, guess)
+                    .unwrap_or_else(|| of_any_step(system, state, equation.takes_massless(), error))
             })?
         }
     };
@@ -59,17 +61,21 @@ where
 #[inline(never)]
 fn first_guess<L: Lagrangian<N> + ?Sized, const N: usize>(
     system: &L,
-    kind: Equation,
+    equation: &impl StepEquation<L::Scalar, N>,
     state: &State<L::Scalar, N>,
 ) -> Result<SVector<L::Scalar, N>, StepError> {
     let rest = nalgebra::zero();
-    if kind == Equation::Linear {
+    if equation.kind() == Equation::Linear {
         state.require_finite()?;
         return require_regular(&derivatives_apart(system, &state.q, &rest).d22)
+            .or_else(|error| match equation.takes_massless() {
+                true => Massless::of(system, &state.q).require_determined(system, &state.q, &rest),
+                false => Err(error),
+            })
             .map(|()| rest)
             .map_err(|error| explained_by_lagrangian(system, &state.q, &rest, error));
     }
-    match state.velocity(system) {
+    match state.velocity_by(system, equation.takes_massless()) {
         Ok(v) if StepError::require_finite(&v, Quantity::Velocity).is_ok() => Ok(v),
         Err(
             error @ (StepError::DegenerateLagrangian { .. }
@@ -97,7 +103,7 @@ where
     state.require_finite()?;
     let guess = match guess {
         Some(v) => *v,
-        None => first_guess(system, equation.kind(), state)?,
+        None => first_guess(system, equation, state)?,
     };
     StepError::require_finite(&guess, Quantity::Velocity)?;
     let (solution, converged) = newton::bounded(equation, iterations, state, h, guess)?;
@@ -126,6 +132,7 @@ fn in_arguments<S: Scalar, const N: usize>(
 pub(crate) fn of_any_step<L: Lagrangian<N> + ?Sized, const N: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
+    takes_massless: bool,
     error: StepError,
 ) -> StepError {
     let asks_for_another = matches!(
@@ -137,7 +144,7 @@ pub(crate) fn of_any_step<L: Lagrangian<N> + ?Sized, const N: usize>(
     if !cfg!(feature = "std") || !asks_for_another {
         return error;
     }
-    match state.velocity(system) {
+    match state.velocity_by(system, takes_massless) {
         Err(
             of_state @ (StepError::DegenerateLagrangian { .. }
             | StepError::SingularCoordinates { .. }

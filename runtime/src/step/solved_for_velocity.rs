@@ -18,7 +18,10 @@ use crate::system::GeneratedDiffers;
     note = "nodes and weights of your own, `impl DisplacementRule`, step every system as `Quadrature(rule)`",
     note = "a rule whose systems implement `Fused` and `ClosedForm` states it: `impl dalembert::rules::SolvedForVelocity for {Self} {{}}`"
 )]
-pub trait SolvedForVelocity {}
+pub trait SolvedForVelocity {
+    /// [`Flow::TAKES_MASSLESS`]: p1 = 0 follows from p0 = 0 in a coordinate without mass.
+    const TAKES_MASSLESS: bool = false;
+}
 
 impl<R: SolvedForVelocity> ByFormula for R {}
 
@@ -28,6 +31,8 @@ where
     L: ClosedForm<R, N> + ?Sized,
 {
     type RunMemory = L::Memory;
+
+    const TAKES_MASSLESS: bool = R::TAKES_MASSLESS;
 
     /// By Newton's method. Without a guess it starts at the velocity of the state, and ∂²L/∂v² is checked to
     /// be invertible; where that leads nowhere, it starts again at rest, away from it if rest is a singular

@@ -6,7 +6,7 @@
 
 use nalgebra::SVector;
 
-use crate::numbers::{CancellingTerms, CovectorDerivatives, Derivatives, Gradient};
+use crate::numbers::{CancellingTerms, CovectorDerivatives, Derivatives, Gradient, Scalar};
 use crate::system::Lagrangian;
 
 /// The force f_L(q, v) = −∂R/∂v + f that acts on a system: of R and f the terms that it has.
@@ -101,10 +101,7 @@ pub trait ActingForce<const N: usize>: Lagrangian<N> {
         q: &SVector<Self::Scalar, N>,
         v: &SVector<Self::Scalar, N>,
     ) -> CovectorDerivatives<Self::Scalar, N> {
-        let of_rayleigh = || {
-            let r = self.dissipation_derivatives(q, v);
-            CovectorDerivatives { value: -r.d2, d1: -r.d12.transpose(), d2: -r.d22 }
-        };
+        let of_rayleigh = || force_of_rayleigh(&self.dissipation_derivatives(q, v));
         match (Self::HAS_RAYLEIGH, Self::HAS_FORCE) {
             (true, true) => of_rayleigh() + self.general_force_derivatives(q, v),
             (true, false) => of_rayleigh(),
@@ -128,4 +125,12 @@ pub trait ActingForce<const N: usize>: Lagrangian<N> {
         let _ = (q, v);
         CancellingTerms { momentum: nalgebra::zero(), rate: nalgebra::zero() }
     }
+}
+
+/// −∂R/∂v with its derivatives, from those of R.
+#[inline]
+pub(crate) fn force_of_rayleigh<S: Scalar, const N: usize>(
+    r: &Derivatives<S, N>,
+) -> CovectorDerivatives<S, N> {
+    CovectorDerivatives { value: -r.d2, d1: -r.d12.transpose(), d2: -r.d22 }
 }

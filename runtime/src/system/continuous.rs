@@ -206,6 +206,23 @@ pub trait Lagrangian<const N: usize> {
         None
     }
 
+    /// f_L = −∂R/∂v + f with its derivatives at (q, v), to determine velocities of coordinates without mass
+    /// ([`State::velocity`](crate::State::velocity)); nothing where it takes an input or a time that a view
+    /// of the system holds.
+    ///
+    /// Generated where there is R or f. A system written by hand that has such a coordinate hands on its
+    /// [`acting_force_derivatives`](crate::system::ActingForce::acting_force_derivatives). Asked where
+    /// ∂²L/∂v² is singular; no step asks for it.
+    #[cold]
+    fn massless_force(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> Option<CovectorDerivatives<Self::Scalar, N>> {
+        let _ = (q, v);
+        Some(CovectorDerivatives::zero())
+    }
+
     /// E_L(q, v) = v·∂L/∂v − L, the energy. Along the motion dE_L/dt = v·f_L.
     #[inline]
     fn energy(&self, q: &SVector<Self::Scalar, N>, v: &SVector<Self::Scalar, N>) -> Self::Scalar {

@@ -3,11 +3,11 @@
 use dalembert::nalgebra::vector;
 use dalembert::{Discretise, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
 
-/// The third coordinate has no kinetic energy.
+/// The third coordinate has no kinetic energy, and no friction of its own.
 #[rayleigh_system(rule = [midpoint, trapezoidal])]
 fn massless(q: [f64; 3], v: [f64; 3], m: f64, k: f64) -> (f64, f64) {
     let square: f64 = q.iter().map(|x| x * x).sum();
-    (0.5 * m * (v[0] * v[0] + v[1] * v[1]) - 0.5 * k * square, 0.1 * v[2] * v[2])
+    (0.5 * m * (v[0] * v[0] + v[1] * v[1]) - 0.5 * k * square, 0.1 * v[1] * v[1] + 0.0 * v[2])
 }
 
 /// Kinetic energy in v_x + c v_y only: ∂²L/∂v² = [[1, c], [c, c²]] has rank 1 but no zero entry.

@@ -11,6 +11,7 @@ mod friction;
 mod gauss_solver;
 mod inputs;
 mod legendre;
+mod massless;
 mod mechanisms;
 mod no_numbers;
 mod oscillator_flow;

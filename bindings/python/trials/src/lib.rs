@@ -90,4 +90,28 @@ impl Skate {
     }
 }
 
-dalembert_python::module!(dalembert_trials { Cut, Edited, Rods, Skate });
+parameters! {
+    /// A mass on a spring that ends in a dashpot; q are both ends in m.
+    pub struct Maxwell {
+        /// Masses of both, kg.
+        pub m: [f64; 2],
+        /// Stiffness, N/m.
+        pub k: f64,
+        /// Damping, N s/m.
+        pub c: f64,
+    }
+}
+
+#[rayleigh_system(rule = [midpoint, gauss])]
+impl Maxwell {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let kinetic = 0.5 * (self.m[0] * v[0] * v[0] + self.m[1] * v[1] * v[1]);
+        kinetic - 0.5 * self.k * (q[0] - q[1]).powi(2)
+    }
+
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.5 * self.c * v[1] * v[1]
+    }
+}
+
+dalembert_python::module!(dalembert_trials { Cut, Edited, Rods, Skate, Maxwell });

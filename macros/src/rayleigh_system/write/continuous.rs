@@ -31,7 +31,8 @@ pub fn lagrangian(
         let missing = (!is_expanded || places.is_some()).then(|| without_derivative(system, home));
         let non_finite = non_finite_value(system, home, plain.names_fields);
         let constraints = constrained::held(system, home);
-        quote!(#verification #missing #places #non_finite #constraints)
+        let massless = massless_force(system, home);
+        quote!(#verification #missing #places #non_finite #massless #constraints)
     };
     let of_view = system.has_view().then(|| asked(Home::View));
     let asked = asked(home);
@@ -94,6 +95,30 @@ fn non_finite_value(system: &System<'_>, home: Home, names_fields: bool) -> Opti
         #[cold]
         fn non_finite_value(&self) -> ::core::option::Option<(#generated::Quantity, usize)> {
             #first #(.or_else(|| #others))*
+        }
+    })
+}
+
+/// `fn massless_force`: of R and f, where `home` has all that acts.
+fn massless_force(system: &System<'_>, home: Home) -> Option<TokenStream> {
+    let is_forced = system.has(Part::Rayleigh) || system.has(Part::Force);
+    let (scalar, n) = (&system.scalar, system.degrees.times(1));
+    let generated = quote!(::dalembert::generated);
+    let value = if home == system.home() {
+        quote!(::core::option::Option::Some(ActingForce::acting_force_derivatives(self, q, v)))
+    } else {
+        quote!(::core::option::Option::None)
+    };
+    is_forced.then(|| {
+        quote! {
+            #[cold]
+            fn massless_force(
+                &self,
+                q: &Vector,
+                v: &Vector,
+            ) -> ::core::option::Option<#generated::CovectorDerivatives<#scalar, #n>> {
+                #value
+            }
         }
     })
 }

@@ -107,6 +107,18 @@ const _: () = {
         ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
             ::dalembert::generated::PlainFields::first_no_number(self)
         }
+        #[cold]
+        fn massless_force(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::option::Option<
+            ::dalembert::generated::CovectorDerivatives<f64, 1>,
+        > {
+            ::core::option::Option::Some(
+                ActingForce::acting_force_derivatives(self, q, v),
+            )
+        }
     }
     #[automatically_derived]
     impl Rayleigh<1> for Follower {

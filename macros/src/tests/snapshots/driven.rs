@@ -133,6 +133,16 @@ const _: () = {
         ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
             ::dalembert::generated::PlainFields::first_no_number(self)
         }
+        #[cold]
+        fn massless_force(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::option::Option<
+            ::dalembert::generated::CovectorDerivatives<f64, 1>,
+        > {
+            ::core::option::Option::None
+        }
     }
     #[automatically_derived]
     impl Lagrangian<1> for DrivenArm<'_> {
@@ -189,6 +199,18 @@ const _: () = {
                 .or_else(|| ::dalembert::generated::PlainFields::first_no_number(
                     self.system,
                 ))
+        }
+        #[cold]
+        fn massless_force(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::option::Option<
+            ::dalembert::generated::CovectorDerivatives<f64, 1>,
+        > {
+            ::core::option::Option::Some(
+                ActingForce::acting_force_derivatives(self, q, v),
+            )
         }
         #[inline]
         fn later<T>(&self, elapsed: f64, evaluate: impl FnOnce(&Self) -> T) -> T {

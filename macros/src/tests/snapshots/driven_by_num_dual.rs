@@ -169,6 +169,16 @@ const _: () = {
             ::dalembert::generated::missing::lagrangian(self, q, v)
                 .or_else(|| ::dalembert::generated::missing::rayleigh(self, q, v))
         }
+        #[cold]
+        fn massless_force(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::option::Option<
+            ::dalembert::generated::CovectorDerivatives<f64, 1>,
+        > {
+            ::core::option::Option::None
+        }
     }
     #[automatically_derived]
     impl Lagrangian<1> for DrivenArm<'_> {
@@ -232,6 +242,18 @@ const _: () = {
         ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
             ::dalembert::generated::missing::input(&self.u)
                 .or_else(|| ::dalembert::generated::missing::time(self.t))
+        }
+        #[cold]
+        fn massless_force(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::option::Option<
+            ::dalembert::generated::CovectorDerivatives<f64, 1>,
+        > {
+            ::core::option::Option::Some(
+                ActingForce::acting_force_derivatives(self, q, v),
+            )
         }
         #[inline]
         fn later<T>(&self, elapsed: f64, evaluate: impl FnOnce(&Self) -> T) -> T {

@@ -161,6 +161,18 @@ const _: () = {
             ::dalembert::generated::missing::lagrangian(self, q, v)
                 .or_else(|| ::dalembert::generated::missing::rayleigh(self, q, v))
         }
+        #[cold]
+        fn massless_force(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::option::Option<
+            ::dalembert::generated::CovectorDerivatives<f64, 1>,
+        > {
+            ::core::option::Option::Some(
+                ActingForce::acting_force_derivatives(self, q, v),
+            )
+        }
     }
     #[automatically_derived]
     impl Rayleigh<1> for Oscillator {

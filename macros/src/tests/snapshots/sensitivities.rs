@@ -129,6 +129,16 @@ const _: () = {
         ) -> ::core::option::Option<(::dalembert::generated::Quantity, usize)> {
             ::dalembert::generated::PlainFields::first_no_number(self)
         }
+        #[cold]
+        fn massless_force(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::option::Option<
+            ::dalembert::generated::CovectorDerivatives<f64, 1>,
+        > {
+            ::core::option::Option::None
+        }
     }
     #[automatically_derived]
     impl Lagrangian<1> for DrivenJoint<'_> {
@@ -184,6 +194,18 @@ const _: () = {
                 .or_else(|| ::dalembert::generated::PlainFields::first_no_number(
                     self.system,
                 ))
+        }
+        #[cold]
+        fn massless_force(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::option::Option<
+            ::dalembert::generated::CovectorDerivatives<f64, 1>,
+        > {
+            ::core::option::Option::Some(
+                ActingForce::acting_force_derivatives(self, q, v),
+            )
         }
     }
     #[automatically_derived]

@@ -8,7 +8,7 @@ use super::coefficients::Coefficients;
 use super::problem::{Problem, Solution, Solver};
 use super::slack::{Allowance, Slack, Swept, sweep};
 use super::solve::solve;
-use super::{Gauss, completed, fixed_point, solved_from};
+use super::{Completed, Gauss, by_matrices, completed, fixed_point, solved_from};
 use crate::numbers::{
     Compensated, LaneVector, Lanes, Scalar,
     lanes::{lane, splat, write_lane},
@@ -243,6 +243,37 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
     }
 }
 
+impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
+    /// Keeps what a step of size `h` from `state` leaves for the next.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn follow_to(
+        &mut self,
+        state: &State<T, N>,
+        solution: &Solution<T, N, S>,
+        h: T,
+        (step, [q, p]): Completed<T, N>,
+    ) -> Step<T, N> {
+        (self.v, self.h, self.solver) = (solution.v, h, solution.solver);
+        (self.q, self.p, self.suggested, self.is_corrected) = (q, p, None, false);
+        if let Some(slack) = &mut self.slack {
+            slack.follow(state, &step.state);
+        }
+        step
+    }
+
+    /// The step without the fixed point.
+    #[cold]
+    #[inline(never)]
+    fn advance_by_matrices<L: ForcedLagrangian<N, Scalar = T>>(
+        &mut self,
+        problem: &Problem<'_, L, N, S>,
+        state: &State<T, N>,
+    ) -> Option<Step<T, N>> {
+        let (solution, completed) = by_matrices(problem, state)?;
+        Some(self.follow_to(state, &solution, problem.h, completed))
+    }
+}
+
 impl<T, L, const N: usize, const S: usize> Memory<L, Gauss<S>, N> for StageHistory<T, N, S>
 where
     T: Scalar,
@@ -282,13 +313,10 @@ where
                 near.map_or_else(|| solved_from(&problem, state), Ok)?
             }
         };
-        let (step, [q, p]) = completed(&problem, &solution)?;
-        (self.v, self.h, self.solver) = (solution.v, h, solution.solver);
-        (self.q, self.p, self.suggested, self.is_corrected) = (q, p, None, false);
-        if let Some(slack) = &mut self.slack {
-            slack.follow(state, &step.state);
+        match completed(&problem, &solution) {
+            Ok(completed) => Ok(self.follow_to(state, &solution, h, completed)),
+            Err(error) => self.advance_by_matrices(&problem, state).ok_or(error),
         }
-        Ok(step)
     }
 
     fn suggest(&mut self, velocity: &SVector<T, N>, _h: T) {

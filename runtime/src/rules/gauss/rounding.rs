@@ -4,6 +4,7 @@ use core::array;
 
 use nalgebra::SVector;
 
+use super::linearised::locals;
 use super::problem::{Problem, in_units_of};
 use crate::numbers::{
     CancellingTerms, LaneVector, Lanes, Scalar,
@@ -73,7 +74,7 @@ fn cancelling<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, con
 }
 
 /// Whether the `floor` at the stages is small beside what their equations are made of: |p0| + |h| max |G|
-/// there and at rest, terms that cancel, and forces at rest that do.
+/// there and at rest, terms that cancel, forces at rest that do, and friction in coordinates without mass.
 #[cold]
 #[inline(never)]
 pub(super) fn is_decided<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
@@ -99,6 +100,27 @@ pub(super) fn is_decided<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N:
     add(&size(v), T::one())
         || add(cancelling(problem, v).as_slice(), T::one() / T::EPSILON)
         || add(rounding(problem, &rest).as_slice(), T::one() / T::EPSILON)
+        || add(friction(problem, v).as_slice(), T::one())
+}
+
+/// |h| Σ |∂G/∂v||V| at the stages in coordinates without mass, whose G is 0: what its terms are, of which no
+/// momentum tells.
+#[cold]
+#[inline(never)]
+fn friction<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    v: &LaneVector<T, N, S>,
+) -> SVector<T, N> {
+    let mut largest = SVector::<T, N>::zeros();
+    for (i, local) in locals(problem, v).iter().enumerate() {
+        let terms = local.rate_by_v.abs() * (lane(v, i).abs() * problem.h.abs());
+        for a in 0..N {
+            if local.mass.row(a).iter().all(|entry| *entry == T::zero()) && terms[a] > largest[a] {
+                largest[a] = terms[a];
+            }
+        }
+    }
+    largest
 }
 
 /// The rounding of the residuals at the stages, measured: each coordinate of Q is moved by [`PLACES`] last

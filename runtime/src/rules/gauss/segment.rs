@@ -19,9 +19,10 @@ use super::problem::Problem;
 use super::rounding::{at_rounding, worst};
 use super::tangent::{ByState, Source, Tangent};
 use crate::numbers::{
-    Compensated, LaneVector, NewtonMatrix, Scalar, Singular, determinant_sign, lanes::splat,
+    Compensated, LaneVector, NewtonMatrix, Scalar, Singular, determinant_sign,
+    lanes::{lane, splat},
 };
-use crate::step::{DiscreteForce, Segment, StepError, newton::AT_FLOOR};
+use crate::step::{DiscreteForce, Segment, StepError, massless::inertia, newton::AT_FLOOR};
 use crate::system::ForcedLagrangian;
 
 /// Iterations of Newton's method for the interior points.
@@ -153,11 +154,14 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     }
 
     /// Whether the determinant of the stages' equations has the sign that it has for small h, where it is Π
-    /// det Mᵢ.
+    /// det Mᵢ, with friction for the mass of coordinates that have none.
     pub(super) fn is_on_the_branch_of_the_flow(&self) -> bool {
+        let q = self.problem.configurations(&self.v);
         let mut for_small_h = true;
-        for local in &self.locals {
-            match determinant_sign(local.mass) {
+        for i in 0..S {
+            let Problem { system, h, .. } = self.problem;
+            let at = |system: &L| inertia(system, &lane(&q, i), &lane(&self.v, i), h);
+            match determinant_sign(system.later(self.problem.elapsed(i), at)) {
                 Ordering::Equal => return false,
                 sign => for_small_h ^= sign.is_lt(),
             }

@@ -16,9 +16,18 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
     problem: &Problem<'_, L, N, S>,
     guess: &SVector<T, N>,
 ) -> Result<Solution<T, N, S>, StepError> {
-    let all = splat(guess);
-    match fixed_point::iterate(problem, &all).or_else(|| simplified::iterate(problem, guess)) {
+    fixed_point::iterate(problem, &splat(guess)).map_or_else(|| by_matrices(problem, guess), Ok)
+}
+
+/// Without the fixed point.
+#[cold]
+#[inline(never)]
+pub(super) fn by_matrices<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    guess: &SVector<T, N>,
+) -> Result<Solution<T, N, S>, StepError> {
+    match simplified::iterate(problem, guess) {
         Some(solution) => Ok(solution),
-        None => newton::solve(problem, &all, newton::MAX_ITERATIONS),
+        None => newton::solve(problem, &splat(guess), newton::MAX_ITERATIONS),
     }
 }

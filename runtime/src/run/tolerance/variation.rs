@@ -10,6 +10,8 @@
 //! q̇ = v,  ∂L/∂v(q, v) = p      ∂q̇/∂p = M⁻¹,  ∂q̇/∂q = −M⁻¹C
 //! ṗ = ∂L/∂q + f_L               ∂ṗ/∂p = B M⁻¹,  ∂ṗ/∂q = ∂²L/∂q² + ∂f_L/∂q + B ∂q̇/∂q,  B = Cᵀ + ∂f_L/∂v
 //! ```
+//!
+//! Coordinates without mass have p = 0, and rows of B and of ∂(∂L/∂q + f_L)/∂q for those of M and C.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -17,6 +19,7 @@ use super::Methods;
 use super::phase::{norm_and_ratio, plus, times};
 use super::scale::Scale;
 use crate::numbers::Scalar;
+use crate::step::massless::{Balance, Massless};
 use crate::step::{PhaseMatrix, State};
 use crate::system::{ActingForce, Lagrangian};
 
@@ -124,8 +127,16 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
         let mut v = *guess;
         for _ in 0..4 {
             let l = system.lagrangian_derivatives(&state.q, &v);
-            let inverse = l.d22.try_inverse()?;
-            let correction = inverse * (state.p - l.d2);
+            let (mut massless, mut of_velocity) = (Massless::none(), Balance::of(&l));
+            let mut inverse = l.d22.try_inverse();
+            if inverse.is_none() {
+                massless = Massless::of(system, &state.q);
+                let force = || system.acting_force_derivatives(&state.q, &v);
+                of_velocity = massless.balance(&l, force, S::constant(1.0));
+                inverse = of_velocity.by_v.try_inverse();
+            }
+            let inverse = inverse?;
+            let correction = inverse * (massless.without(&state.p) - of_velocity.value);
             if !correction.iter().all(|x| x.is_finite()) {
                 return None;
             }
@@ -144,9 +155,15 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
             }
             // L is differentiated beside v by less than VELOCITY, and ṗ there taken to v.
             rate += l.d12 * correction;
-            let q_by_q = -(inverse * l.d12.transpose());
-            let matrix =
-                PhaseMatrix { q_by_q, q_by_p: inverse, p_by_q: by_q + by_v * q_by_q, p_by_p: by_v * inverse };
+            let q_by_q = -(inverse * of_velocity.by_q);
+            let q_by_p = massless.without(&inverse.transpose()).transpose();
+            let matrix = PhaseMatrix {
+                q_by_q,
+                q_by_p,
+                p_by_q: massless.without(&(by_q + by_v * q_by_q)),
+                p_by_p: massless.without(&(by_v * q_by_p)),
+            };
+            let rate = massless.without(&rate);
             let [fastest, impedance] = norm_and_ratio(&matrix);
             let is_finite = fastest.is_finite() && rate.iter().all(|x| x.is_finite());
             return is_finite.then_some(Self {

@@ -231,8 +231,8 @@ where
         last.as_ref().map(|(factored, _)| factored.solve(residual))
     }
 
-    fn inertia(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N> {
-        self.free.inertia(q, v)
+    fn inertia(&self, segment: &Segment<L::Scalar, N>) -> SMatrix<L::Scalar, N, N> {
+        self.free.inertia(segment)
     }
 
     /// Terms of L, R and f, and of the reactions one by one: at rest they cancel the forces, and at a light

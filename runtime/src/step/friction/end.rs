@@ -5,8 +5,9 @@ use nalgebra::SVector;
 use super::equation::Sliding;
 use super::set::Held;
 use crate::numbers::{Factored, NewtonMatrix, Scalar};
+use crate::step::massless::{Balance, Massless};
 use crate::step::{StepError, require_regular};
-use crate::system::DryFriction;
+use crate::system::{DryFriction, force_of_rayleigh};
 
 /// Newton iterations for the velocity at the end: one where ∂L/∂v is linear in v.
 const ITERATIONS: u32 = 32;
@@ -23,6 +24,8 @@ pub(super) struct End<S, const N: usize, const M: usize> {
     pub(super) sticks: [bool; M],
     /// p1 = ∂L/∂v(q1, v1).
     pub(super) p: SVector<S, N>,
+    /// Coordinates without mass, in which the other forces at the end balance friction there.
+    pub(super) massless: Massless<N>,
 }
 
 /// v1 of w ∈ ∂L/∂v(q1, v1) + (h/2) ∂R_k(q̄, v1), from the velocity `start`: the system at the end of the step
@@ -41,18 +44,25 @@ where
     L: DryFriction<N, M, Scalar = S>,
     S: Scalar,
 {
-    let mut v = *start;
+    let (mut v, mut w, mut massless) = (*start, *w, Massless::none());
     let mut forces = nalgebra::zero();
-    let mut left = *w;
+    let mut left = w;
     for iteration in 0..ITERATIONS {
-        let l = at_end.lagrangian_derivatives(q1, &v);
-        let Some(factored) = l.d22.factored() else {
-            require_regular(&l.d22)?;
+        let mut balance = balance(at_end, &massless, q1, &v, h);
+        let mut factored = balance.by_v.factored();
+        if factored.is_none() && !massless.are_any() {
+            massless = Massless::of(at_end, q1);
+            w = massless.without(&w);
+            balance = self::balance(at_end, &massless, q1, &v, h);
+            factored = balance.by_v.factored();
+        }
+        let Some(factored) = factored else {
+            require_regular(&balance.by_v)?;
             break;
         };
         let slips = at_middle.slips(middle, &v);
         let sliding = Sliding::of(&slips, (S::zero(), h), &factored)?;
-        left = l.d2 - w;
+        left = balance.value - w;
         let Some(held) = sliding.held(L::ELEMENTS, &factored, &left, &forces) else { break };
         forces = held.forces;
         let impulse = sliding.impulse(&forces);
@@ -61,19 +71,44 @@ where
         v -= correction;
         // Beside what friction takes away of it.
         let is_near = || {
-            let size = v.amax() + factored.solve(w).amax();
+            let size = v.amax() + factored.solve(&w).amax();
             correction.amax() <= size * (S::EPSILON * S::constant(ROUNDINGS))
         };
-        if L::STRUCTURE.constant_mass_matrix || iteration > 0 && is_near() {
+        let is_linear = L::STRUCTURE.constant_mass_matrix && !massless.are_any();
+        if is_linear || iteration > 0 && is_near() {
             let sticks = held.sticks;
             if sticks.contains(&true) {
                 v = sticking(at_middle, middle, &v, &held);
-                return Ok(End { v, forces, sticks, p: at_end.lagrangian_gradient(q1, &v).d2 });
+                return Ok(End { v, forces, sticks, p: at_end.lagrangian_gradient(q1, &v).d2, massless });
             }
-            return Ok(End { v, forces, sticks, p: w - impulse });
+            return Ok(End { v, forces, sticks, p: massless.without(&(w - impulse)), massless });
         }
     }
     Err(StepError::NotConverged { iterations: ITERATIONS, residual: left.amax().widen(), floor: 0.0 })
+}
+
+/// The equations for v1 without the kinks: in coordinates without mass the impulses of half a step.
+#[inline]
+pub(super) fn balance<L, S, const N: usize, const M: usize>(
+    at_end: &L,
+    massless: &Massless<N>,
+    q1: &SVector<S, N>,
+    v: &SVector<S, N>,
+    h: S,
+) -> Balance<S, N>
+where
+    L: DryFriction<N, M, Scalar = S>,
+    S: Scalar,
+{
+    let l = at_end.lagrangian_derivatives(q1, v);
+    massless.balance(
+        &l,
+        || {
+            let smooth = force_of_rayleigh(&at_end.smooth_rayleigh_derivatives(q1, v));
+            if L::HAS_FORCE { smooth + at_end.general_force_derivatives(q1, v) } else { smooth }
+        },
+        h * S::constant(0.5),
+    )
 }
 
 /// The velocity nearby at which elements that stick have no slip to the last bit: the slips that stick are

@@ -299,8 +299,8 @@ where
         last.as_ref().map(|factored| factored.solve(residual))
     }
 
-    fn inertia(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N> {
-        self.free.inertia(q, v)
+    fn inertia(&self, segment: &Segment<L::Scalar, N>) -> SMatrix<L::Scalar, N, N> {
+        self.free.inertia(segment)
     }
 
     fn cancelling(&self, segment: &Segment<L::Scalar, N>) -> SVector<L::Scalar, N> {
@@ -313,6 +313,10 @@ where
 
     fn kind(&self) -> Equation {
         if L::IS_UNIFORM { self.free.kind() } else { Equation::General }
+    }
+
+    fn takes_massless(&self) -> bool {
+        self.free.takes_massless()
     }
 
     fn cause(&self, segment: &Segment<L::Scalar, N>) -> Option<StepError> {

@@ -15,10 +15,11 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::element::elements;
-use super::end::velocity;
+use super::end::{balance, velocity};
 use super::equation::{at_middle, direction_of};
 use crate::numbers::{Scalar, linear::by_columns};
 use crate::step::constraints::{complement::Complement, independent::Independent};
+use crate::step::massless::Massless;
 use crate::step::{
     ClosedForm, Discrete, LegendreDerivatives, MomentaBy, PhaseMatrix, Segment, StateBy, StepError, invert,
 };
@@ -89,6 +90,9 @@ pub struct LinearizedFriction<S: Scalar, const N: usize, const M: usize> {
     half_slip: SMatrix<S, M, N>,
     mass: SMatrix<S, N, N>,
     momentum_by_q: SMatrix<S, N, N>,
+    /// ∂/∂q of the equations for v1, which are balances of forces in coordinates without mass.
+    end_by_q: SMatrix<S, N, N>,
+    massless: Massless<N>,
 }
 
 /// s and what sticks at the slips of a step, and Σ D ∂s/∂u where a length slides.
@@ -193,8 +197,9 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
         at.sticks = end.sticks;
         at.require_off_edge(L::ELEMENTS)?;
         let l = system.later(h, |system| system.lagrangian_derivatives(&q1, &end.v));
+        let of_end = system.later(h, |system| balance(system, &end.massless, &q1, &end.v, h));
         let second = Line::of(
-            &(l.d22 + at.turning * at_end.by_velocity),
+            &(of_end.by_v + at.turning * at_end.by_velocity),
             &directions,
             &at_end.by_velocity,
             &at.sticks,
@@ -212,6 +217,8 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
             half_slip,
             mass: l.d22,
             momentum_by_q: l.d12.transpose(),
+            end_by_q: of_end.by_q,
+            massless: end.massless,
         };
         let q_by_p = linearized.first.solve(&SMatrix::identity(), &nalgebra::zero());
         Ok((q_by_p, linearized))
@@ -227,8 +234,8 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
         let right = start.p - (k.p0_by_q0 + self.impulse_by_q0) * start.q - moved.p0;
         let q = self.first.solve(&right, &-(self.slip_by_q0 * start.q));
         let both = start.q + q;
-        let w = k.p1_by_q0 * start.q + k.p1_by_q1 * q + moved.p1;
-        let right = w - self.momentum_by_q * q - self.half_impulse * both;
+        let w = self.massless.without(&(k.p1_by_q0 * start.q + k.p1_by_q1 * q)) + moved.p1;
+        let right = w - self.end_by_q * q - self.half_impulse * both;
         let v = self.second.solve(&right, &-(self.half_slip * both));
         let p = self.mass * v + self.momentum_by_q * q;
         StepError::require_finite(&q, Quantity::Derivatives)?;

@@ -1,7 +1,7 @@
 //! The equation of a step as it is solved at length, with neither the number of coordinates nor the form of
 //! the matrix in its type ([`nonlinear`](crate::numbers::nonlinear)).
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use super::Solution;
 use crate::numbers::{
@@ -82,6 +82,12 @@ fn write_sizes<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(entries: &mut [
     }
 }
 
+impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Evaluations<'_, '_, S, M, N> {
+    fn inertia(&self, q: &[S], v: &[S]) -> SMatrix<S, N, N> {
+        self.of.equation.inertia(&Segment { q0: vector(q), v: vector(v), h: self.of.h })
+    }
+}
+
 impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Evaluate<S> for Evaluations<'_, '_, S, M, N> {
     fn kernel(&mut self, q: &[S], v: &[S], h: S, held: &[S], p0: &mut [S]) {
         let segment = Segment { q0: vector(q), v: vector(v), h };
@@ -112,15 +118,14 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Evaluate<S> for Evaluatio
         let found = match of {
             Matrix::Present => self.present.magnitudes(&v),
             Matrix::Before => self.before.magnitudes(&v),
-            Matrix::Mass { q, v: at } => self.of.equation.inertia(&vector(q), &vector(at)).magnitudes(&v),
+            Matrix::Mass { q, v: at } => self.inertia(q, at).magnitudes(&v),
         };
         write(sums, &found);
     }
 
     fn diagonal(&self, of: Matrix<'_, S>, entries: &mut [S]) {
         if let Matrix::Mass { q, v } = of {
-            let mass = self.of.equation.inertia(&vector(q), &vector(v));
-            write_sizes(entries, &mass);
+            write_sizes(entries, &self.inertia(q, v));
         } else {
             write_sizes(entries, if matches!(of, Matrix::Before) { &self.before } else { &self.present });
         }
