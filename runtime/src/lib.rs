@@ -260,6 +260,11 @@ mod attributes {
 /// | `proximal` | [`Proximal`], order 2 while it slides; for dry friction: what sticks, sticks to the last bit | kinks of R, such as \|v\|, of what is linear in v; no constraints, `time_scale`, `parameters` or `step_derivatives` |
 /// | `one_sided` | [`OneSided`], order 1; for stiff damping that is not linear | R(v) convex; no force, input, time, `parameters` or `step_derivatives` |
 ///
+/// Kinks of R are an error at their tokens under every other rule, which has no step where the motion stops:
+/// |v|³, v|v| and √(v² + ε²) are none. `derivatives = num_dual`, and `auto` where it falls back on that, does
+/// not see them: there a step at a kink fails when the program runs, with
+/// [`NoDerivative`](StepError::NoDerivative) or [`NoRealSolution`](StepError::NoRealSolution).
+///
 /// # Options
 ///
 /// | option | |

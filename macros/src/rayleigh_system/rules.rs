@@ -12,6 +12,8 @@ pub struct Rules {
     pub joint: Vec<(Ident, Rule)>,
     /// The word of the rule that takes kinks of R apart, if it is listed.
     pub proximal: Option<Ident>,
+    /// The words of the rules that do not.
+    pub others: Vec<Ident>,
     /// Whether the rules of Gauss are listed, which the runtime implements for every forced Lagrangian.
     pub gauss: bool,
 }
