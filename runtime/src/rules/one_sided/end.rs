@@ -3,7 +3,8 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{Derivatives, Gradient, Scalar};
-use crate::step::{Segment, State, StepError, invert};
+use crate::step::equation::Alone;
+use crate::step::{Segment, State, StepError, StepKernel, invert, newton};
 use crate::system::{Damping, Lagrangian, Rayleigh, Structure};
 
 /// L(q1, v) + (h/2) R(q̄, v) as a function of v at the end of a segment: its momentum w has the velocity v1.
@@ -24,7 +25,26 @@ impl<'a, L: Rayleigh<N>, const N: usize> End<'a, L, N> {
     /// # Errors
     /// Those of [`State::velocity`], of L + (h/2) R.
     pub(super) fn velocity(&self, w: &SVector<L::Scalar, N>) -> Result<SVector<L::Scalar, N>, StepError> {
-        State { q: self.q1(), p: *w }.velocity(self)
+        let state = State { q: self.q1(), p: *w };
+        if !<Self as Lagrangian<N>>::STRUCTURE.constant_mass_matrix {
+            let equation = Alone {
+                kernel: |q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>| {
+                    let l = self.lagrangian_derivatives(q, v);
+                    StepKernel { p0: l.d2, matrix: l.d22 }
+                },
+                momentum: |q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>| {
+                    self.lagrangian_gradient(q, v).d2
+                },
+                inertia: |q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>| {
+                    self.lagrangian_derivatives(q, v).d22
+                },
+            };
+            // The mean velocity is near, rest is not.
+            if let Ok(solution) = newton::quick(&equation, &state, nalgebra::zero(), self.segment.v) {
+                return Ok(solution.unknown);
+            }
+        }
+        state.velocity(self)
     }
 
     /// p1 = ∂L/∂v(q1, v1).
