@@ -38,9 +38,9 @@ use end::{End, LinearizedEnd};
 /// start. Stiff springs it follows as the midpoint rule does.
 ///
 /// **f_d.** Half of the damping is in f_d⁻, half in f_d⁺, which is solved for: p1 = D2 L_d + f_d⁺ as of every
-/// rule. For two coordinates or more there is in general no R_d, for any L_d: D1 f_d⁺ has a factor
-/// ∂²L/∂v² (∂²L/∂v² + (h/2) ∂²R/∂v²)⁻¹ in front of what D2 f_d⁻ has not. What friction takes is told by v̄ and
-/// v1, (h/2) (v̄·∂R/∂v(q̄, v̄) + v1·∂R/∂v(q̄, v1)), never less than 0 for a convex R that is least at rest.
+/// rule. For two coordinates or more there is in general no R_d, for any L_d: p1 has a factor
+/// M (M + (h/2) ∂²R/∂v²)⁻¹ that p0 has not, M = ∂²L/∂v². What friction takes is told by v̄ and v1,
+/// (h/2) (v̄·∂R/∂v(q̄, v̄) + v1·∂R/∂v(q̄, v1)), never less than 0 for a convex R that is least at rest.
 ///
 /// Not self-adjoint: for stiff damping alone, where [`Fitted`](crate::Fitted) does not take it. R is to be
 /// convex in v, which nothing checks.
