@@ -13,8 +13,8 @@ pub use crate::numbers::{
 };
 #[doc(no_inline)]
 pub use crate::rules::{
-    DisplacementRule, Fitted, FittedTrapezoidal, Fused, Gauss, JointRule, Midpoint, OneSided, Proximal,
-    Trapezoidal,
+    BothEnds, DisplacementRule, Fitted, FittedTrapezoidal, Fused, Gauss, JointRule, Midpoint, OneSided,
+    Proximal, Trapezoidal,
 };
 #[doc(no_inline)]
 pub use crate::run::tolerance::{OffersMethods, WithGauss, WithSplittings};

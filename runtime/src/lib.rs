@@ -258,7 +258,12 @@ mod attributes {
 /// | `fitted` | [`Fitted`], order 2, self-adjoint; does not ring under stiff damping | L = ½vᵀMv − V(q) with constant M, linear damping, no force, input, time, `parameters` or `step_derivatives` |
 /// | `fitted_trapezoidal` | [`FittedTrapezoidal`], the same made explicit; exact law of phase volume | as `fitted` |
 /// | `proximal` | [`Proximal`], order 2 while it slides; for dry friction: what sticks, sticks to the last bit | kinks of R, such as \|v\|, of what is linear in v; no constraints, `time_scale`, `parameters` or `step_derivatives` |
-/// | `one_sided` | [`OneSided`], order 1; for stiff damping that is not linear | R(v) convex; no force, input, time, `parameters` or `step_derivatives` |
+/// | `one_sided` | [`OneSided`], order 1; for stiff damping that is not linear: velocities as the balance of forces has them | R smooth and convex in v; no `step_derivatives` |
+///
+/// Kinks of R are an error at their tokens under every other rule, which has no step where the motion stops:
+/// |v|³, v|v| and √(v² + ε²) are none. `derivatives = num_dual`, and `auto` where it falls back on that, does
+/// not see them: there a step at a kink fails when the program runs, with
+/// [`NoDerivative`](StepError::NoDerivative) or [`NoRealSolution`](StepError::NoRealSolution).
 ///
 /// # Options
 ///

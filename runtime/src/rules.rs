@@ -27,7 +27,7 @@ pub(crate) use gauss::{SLACK, Solver, steps_until};
 pub(crate) use joint::JointRayleighRule;
 pub use joint::JointRule;
 pub use midpoint::Midpoint;
-pub use one_sided::OneSided;
+pub use one_sided::{BothEnds, OneSided};
 pub use proximal::Proximal;
 pub use quadrature::Quadrature;
 pub use self_adjoint::SelfAdjoint;

@@ -238,6 +238,7 @@ fn rules(name: &Ident, words: Vec<Ident>, rules: &mut Rules, report: &mut Report
     }
     for word in words {
         let is_known = if word == GAUSS {
+            rules.others.push(word.clone());
             std::mem::replace(&mut rules.gauss, true)
         } else {
             let Some(rule) = Rule::named(&word.to_string()) else {
@@ -249,6 +250,8 @@ fn rules(name: &Ident, words: Vec<Ident>, rules: &mut Rules, report: &mut Report
             }
             if rule == Rule::Proximal {
                 rules.proximal = Some(word.clone());
+            } else {
+                rules.others.push(word.clone());
             }
             let is_known = rules.of_displacement.contains(&rule);
             if !is_known {

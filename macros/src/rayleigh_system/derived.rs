@@ -18,9 +18,9 @@ mod sensitivity;
 mod stages;
 mod trapezoidal;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use quote::format_ident;
 use syn::Ident;
 
@@ -95,6 +95,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered) -> Result<Derived, Refus
         of_arrays,
         bindings,
         heaviest,
+        methods,
     } = lowered;
     let written = graph.len();
     let components = force.iter().chain(&constraints).flatten().copied();
@@ -104,7 +105,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered) -> Result<Derived, Refus
         .map(|(ty, taken)| (ty, graph.taken_for(taken, roots.iter().copied())));
     let (derivation, force) = (Differentiation::default(), force.as_deref());
     let mut deriving =
-        Deriving { system, graph, written, n, m, lagrangian, rayleigh, force, derivation, heaviest };
+        Deriving { system, graph, written, n, m, lagrangian, rayleigh, force, derivation, heaviest, methods };
     let mut functions = deriving.function(Part::Lagrangian, "l", lagrangian)?;
     if let Some(root) = rayleigh {
         functions.extend(deriving.function(Part::Rayleigh, "r", root)?);
@@ -173,6 +174,8 @@ struct Deriving<'s> {
     derivation: Differentiation,
     /// The loop that writes most, if there is any.
     heaviest: Option<Load>,
+    /// The names of the methods that gave numbers, those of R first.
+    methods: HashMap<Node, Span>,
 }
 
 impl Deriving<'_> {

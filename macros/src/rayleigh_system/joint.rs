@@ -21,11 +21,14 @@ pub fn check(system: &System<'_>, lowered: Option<&Lowered>, report: &mut Report
 
 /// The first demand of `rule` that the system does not meet, if any.
 fn lacks(rule: Joint, system: &System<'_>, lowered: Option<&Lowered>) -> Option<&'static str> {
-    if let Some(lacks) = asked_too_much(system) {
+    if let Some(lacks) = asked_too_much(rule, system) {
         return Some(lacks);
     }
     if !system.has(Part::Rayleigh) {
         return Some("needs a Rayleigh function, and there is none");
+    }
+    if !rule.is_fitted {
+        return None;
     }
     if system.has(Part::Force) {
         return Some("takes no general force");
@@ -44,9 +47,6 @@ fn lacks(rule: Joint, system: &System<'_>, lowered: Option<&Lowered>) -> Option<
     if r.gradient.keys().any(|&variable| is_coordinate(&graph, variable)) {
         return Some("needs a Rayleigh function of v alone");
     }
-    if !rule.is_fitted {
-        return None;
-    }
     if r.hessian.values().any(|&entry| graph.depends(entry)) {
         return Some("needs linear damping, R = ½vᵀCv with constant C");
     }
@@ -56,7 +56,10 @@ fn lacks(rule: Joint, system: &System<'_>, lowered: Option<&Lowered>) -> Option<
 
 /// Names what the system asks for and rules that take L and R together do not have: a view, or derivatives
 /// on request.
-fn asked_too_much(system: &System<'_>) -> Option<&'static str> {
+fn asked_too_much(rule: Joint, system: &System<'_>) -> Option<&'static str> {
+    if !rule.is_fitted {
+        return system.second.then_some("does not have the derivatives that `step_derivatives` asks for");
+    }
     if system.has_view() {
         return Some("takes neither input nor time");
     }

@@ -5,6 +5,10 @@ use super::diagnostics::{Mistake, Report};
 use super::model::{Engine, System};
 use super::parts::Part;
 
+/// The motion stops at a kink, where −∂R/∂v is a set.
+const UNSERVED: &str = "R has a kink here, at which the motion can stop; only `rule = proximal` has that step: \
+                        use it, or smooth R, as √(v² + ε²) for |v|";
+
 /// Reports what the attribute asks for and steps with kinks do not have.
 pub fn check(system: &System<'_>, report: &mut Report) {
     let Some(word) = &system.rules.proximal else { return };
@@ -23,19 +27,25 @@ pub fn check(system: &System<'_>, report: &mut Report) {
     }
 }
 
-/// Reports kinks that the rule does not take, and an R without any.
+/// Reports kinks that the rules do not take, and an R without any where the rule is for kinks.
 pub fn check_derived(system: &System<'_>, derived: &Derived, report: &mut Report) {
-    let Some(word) = &system.rules.proximal else { return };
-    let at = system.source.functions().find(|function| function.sig.ident == Part::Rayleigh.name());
-    let at = at.map_or(word, |function| &function.sig.ident);
-    if derived.kinks.components() == 0 {
+    let kinks = &derived.kinks;
+    let Some(word) = &system.rules.proximal else {
+        for &at in &kinks.written {
+            report.at_span(at, Mistake::Kink { fault: UNSERVED });
+        }
+        return;
+    };
+    if kinks.components() > 0 {
+        for other in &system.rules.others {
+            report.at(other, Mistake::KinkByOther { rule: other.to_string() });
+        }
+    } else if kinks.faults.is_empty() {
         let lacks =
             "holds by kinks of R such as `v[0].abs()`, and this R has none; use `midpoint`, which it is then";
         report.at(word, Mistake::Kinks { lacks });
     }
-    let mut faults = derived.kinks.faults.clone();
-    faults.dedup();
-    for fault in faults {
+    for &(fault, at) in &kinks.faults {
         let fault = match fault {
             Fault::NotLinear => {
                 "a kink of R is of what is not linear in `v`: write it of what is, as |A(q) v − b(q, t)|"
@@ -48,6 +58,6 @@ pub fn check_derived(system: &System<'_>, derived: &Derived, report: &mut Report
                 "a length of `v` stands in another function: R may be proportional to a length, or a function of |v|"
             }
         };
-        report.at(at, Mistake::Kink { fault });
+        report.at_span(at, Mistake::Kink { fault });
     }
 }

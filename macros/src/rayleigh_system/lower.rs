@@ -32,9 +32,9 @@ mod statement;
 mod value;
 mod written;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 use syn::Ident;
 
@@ -78,6 +78,8 @@ pub struct Lowered {
     pub bindings: Vec<Ident>,
     /// The loop or method call that writes most operations.
     pub heaviest: Option<Load>,
+    /// The names of the methods that gave numbers, where each stands first, in R if it stands there.
+    pub methods: HashMap<Node, Span>,
 }
 
 /// L, R and f of the system, or the first token that cannot be lowered.
@@ -107,6 +109,7 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
         part: None,
         functions: Vec::new(),
         of_arrays: Vec::new(),
+        methods: HashMap::new(),
     };
     lowering.graph.reserve(system.name.to_string());
     // Known before the bodies read them.
@@ -135,6 +138,9 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
             for (part, value) in Part::ALL.into_iter().zip(&mut values) {
                 let Some(takes) = system.takes(part) else { continue };
                 let arguments = takes.choose(all.clone()).flatten().collect();
+                if part == Part::Rayleigh {
+                    lowering.methods.clear();
+                }
                 *value = Some(lowering.root(part.name(), arguments)?);
             }
         }
@@ -189,6 +195,7 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
         of_arrays,
         bindings,
         heaviest,
+        methods: lowering.methods,
     })
 }
 
@@ -235,6 +242,7 @@ struct Lowering<'s> {
     /// Methods of slices, with the length of the array of numbers that each was called on.
     of_arrays: Vec<(Ident, usize)>,
     heaviest: Option<Load>,
+    methods: HashMap<Node, Span>,
     /// Whether a loop or call is running whose operations are counted.
     is_weighed: bool,
     /// The function being run, as it was called from outside.

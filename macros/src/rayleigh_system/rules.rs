@@ -12,6 +12,8 @@ pub struct Rules {
     pub joint: Vec<(Ident, Rule)>,
     /// The word of the rule that takes kinks of R apart, if it is listed.
     pub proximal: Option<Ident>,
+    /// The words of the rules that do not.
+    pub others: Vec<Ident>,
     /// Whether the rules of Gauss are listed, which the runtime implements for every forced Lagrangian.
     pub gauss: bool,
 }
@@ -104,6 +106,8 @@ pub struct Joint {
     /// function of M⁻¹C is full.
     pub is_fitted: bool,
     pub asks_for_variations: bool,
+    /// The type of the runtime that holds its steps.
+    pub border: &'static str,
     /// Whether one correction solves its step.
     pub is_linear: bool,
     /// The type of the runtime that a run keeps from step to step.
@@ -153,6 +157,7 @@ impl Rule {
                 terms: Terms::Joint(Joint {
                     is_fitted: true,
                     asks_for_variations: false,
+                    border: "Free",
                     is_linear: false,
                     memory: "DriftMemory",
                 }),
@@ -166,6 +171,7 @@ impl Rule {
                 terms: Terms::Joint(Joint {
                     is_fitted: true,
                     asks_for_variations: false,
+                    border: "Free",
                     // With a constant matrix and the potential at the ends.
                     is_linear: true,
                     memory: "ExplicitDriftMemory",
@@ -180,6 +186,7 @@ impl Rule {
                 terms: Terms::Joint(Joint {
                     is_fitted: false,
                     asks_for_variations: true,
+                    border: "BothEnds",
                     is_linear: false,
                     memory: "VelocityHistory",
                 }),

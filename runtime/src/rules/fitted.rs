@@ -129,7 +129,7 @@ impl JointRule for Fitted {
     }
 
     #[inline]
-    fn discrete_force<L: Rayleigh<N>, const N: usize>(
+    fn discrete_force<L: Rayleigh<N> + ActingForce<N>, const N: usize>(
         system: &L,
         segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForce<L::Scalar, N> {
@@ -138,7 +138,7 @@ impl JointRule for Fitted {
     }
 
     #[inline]
-    fn discrete_force_derivatives<L: Rayleigh<N>, const N: usize>(
+    fn discrete_force_derivatives<L: Rayleigh<N> + ActingForce<N>, const N: usize>(
         system: &L,
         segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForceDerivatives<L::Scalar, N> {
@@ -202,7 +202,7 @@ impl JointRule for Fitted {
 /// For N = 1, or C a multiple of M: R_d = ¼ dᵀCd − h ℒ(z) V(q̄).
 impl JointRayleighRule for Fitted {
     #[inline]
-    fn discrete_rayleigh<L: Rayleigh<N>, const N: usize>(
+    fn discrete_rayleigh<L: Rayleigh<N> + ActingForce<N>, const N: usize>(
         system: &L,
         segment: &Segment<L::Scalar, N>,
     ) -> L::Scalar {
@@ -210,7 +210,7 @@ impl JointRayleighRule for Fitted {
     }
 
     #[inline]
-    fn discrete_rayleigh_derivatives<L: Rayleigh<N>, const N: usize>(
+    fn discrete_rayleigh_derivatives<L: Rayleigh<N> + ActingForce<N>, const N: usize>(
         system: &L,
         segment: &Segment<L::Scalar, N>,
     ) -> Derivatives<L::Scalar, N> {

@@ -97,7 +97,7 @@ impl JointRule for FittedTrapezoidal {
     }
 
     #[inline]
-    fn discrete_force<L: Rayleigh<N>, const N: usize>(
+    fn discrete_force<L: Rayleigh<N> + ActingForce<N>, const N: usize>(
         system: &L,
         segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForce<L::Scalar, N> {
@@ -108,7 +108,7 @@ impl JointRule for FittedTrapezoidal {
     }
 
     #[inline]
-    fn discrete_force_derivatives<L: Rayleigh<N>, const N: usize>(
+    fn discrete_force_derivatives<L: Rayleigh<N> + ActingForce<N>, const N: usize>(
         system: &L,
         segment: &Segment<L::Scalar, N>,
     ) -> DiscreteForceDerivatives<L::Scalar, N> {
@@ -154,7 +154,7 @@ impl JointRule for FittedTrapezoidal {
 
 impl JointRayleighRule for FittedTrapezoidal {
     #[inline]
-    fn discrete_rayleigh<L: Rayleigh<N>, const N: usize>(
+    fn discrete_rayleigh<L: Rayleigh<N> + ActingForce<N>, const N: usize>(
         system: &L,
         segment: &Segment<L::Scalar, N>,
     ) -> L::Scalar {
@@ -165,7 +165,7 @@ impl JointRayleighRule for FittedTrapezoidal {
     }
 
     #[inline]
-    fn discrete_rayleigh_derivatives<L: Rayleigh<N>, const N: usize>(
+    fn discrete_rayleigh_derivatives<L: Rayleigh<N> + ActingForce<N>, const N: usize>(
         system: &L,
         segment: &Segment<L::Scalar, N>,
     ) -> Derivatives<L::Scalar, N> {

@@ -73,6 +73,10 @@ where
                 !L::IS_CONSTRAINED,
                 "`Quadrature` steps a system without constraints; take `Midpoint` or `Trapezoidal`"
             );
+            assert!(
+                !L::STRUCTURE.is_held_by_friction(),
+                "`Quadrature` has no step where R has a kink and the motion stops; take `Proximal`"
+            );
         }
         let mut kernel = Q::lagrangian_kernel(self, segment);
         if L::HAS_RAYLEIGH {

@@ -8,7 +8,7 @@
 ///
 /// ```compile_fail
 /// use dalembert::{Composition, OneSided};
-/// let _ = Composition::kahan_li_6(OneSided); // its step back is the other one-sided rule's
+/// let _ = Composition::kahan_li_6(OneSided); // its step back is another rule's
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not stated to be self-adjoint",

@@ -29,7 +29,7 @@ fn by_duals(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
 
 struct Pushed;
 
-#[rayleigh_system(rule = one_sided)]
+#[rayleigh_system(rule = fitted)]
 impl Pushed {
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
         0.5 * v[0] * v[0] - q[0]
@@ -48,7 +48,7 @@ struct Worn {
     r: f64,
 }
 
-#[rayleigh_system(rule = [gauss, one_sided])]
+#[rayleigh_system(rule = [gauss, fitted, one_sided])]
 impl Worn {
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
         0.5 * v[0] * v[0] - q[0] * t
@@ -61,6 +61,16 @@ impl Worn {
 
 #[rayleigh_system(rule = [gauss, fitted], parameters = r)]
 fn tuned(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    (0.5 * v[0] * v[0] - q[0] * q[0], r * v[0] * v[0])
+}
+
+#[rayleigh_system(rule = one_sided)]
+fn free(q: [f64; 1], v: [f64; 1]) -> f64 {
+    0.5 * v[0] * v[0] - q[0] * q[0]
+}
+
+#[rayleigh_system(rule = one_sided, step_derivatives = second)]
+fn bent(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
     (0.5 * v[0] * v[0] - q[0] * q[0], r * v[0] * v[0])
 }
 

@@ -1,4 +1,4 @@
-//! Rules that take L and R together take no input: said at the rule, before a view could be forgotten.
+//! Rules fitted to damping take no input: said at the rule, before a view could be forgotten.
 
 use dalembert::rayleigh_system;
 
@@ -7,7 +7,7 @@ struct Cart {
     r: f64,
 }
 
-#[rayleigh_system(rule = [midpoint, fitted, one_sided])]
+#[rayleigh_system(rule = [midpoint, fitted, fitted_trapezoidal])]
 impl Cart {
     fn lagrangian(&self, _q: [f64; 1], v: [f64; 1]) -> f64 {
         0.5 * self.m * v[0] * v[0]

@@ -63,7 +63,7 @@ pub fn overdamped() -> Result<Case> {
         ours: "Midpoint and trapezoidal rule ring past hr = 2m, exactly as the formula says, and so do, further out, the Gauss rules, whose factor goes to ±1 as \
                well, and compositions; equilibria and terminal velocities are exact at any \
                hr, q ends where it should, and momenta should not be read. `rule = fitted` decays by e^{−hr/m}, to rounding, at any hr, with q of \
-               order 2; `rule = one_sided` by 1/(1 + hr/m), for damping that is not linear.",
+               order 2; `rule = one_sided` by 1/(1 + hr/2m)², for damping that is not linear.",
         head: &[
             "hr/m",
             "exact p after one step",

@@ -48,8 +48,8 @@ body!(Loop, |self, v| {
     }
     self.c * (0.5 * s).powf(1.25)
 });
-// Dry friction, which has no derivative at rest.
-body!(Dry, |self, v| self.c * (v[0] * v[0] + v[1] * v[1]).sqrt());
+// Dry friction, which has no derivative at rest, of what is not linear in v: of no kink for `proximal`.
+body!(Dry, |self, v| self.c * (v[0] * v[0] + (v[1] + v[1].powi(3)).powi(2)).sqrt());
 
 /// Drag as a force, −c |v| v.
 struct Forced {

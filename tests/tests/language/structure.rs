@@ -139,7 +139,7 @@ fn damping_is_told_apart() {
     ];
     let nonlinear = [
         structure!(1, |q, v| v[0] * v[0], R = v[0].abs().powi(3)),
-        structure!(1, |q, v| v[0] * v[0], R = v[0].abs()),
+        structure!(1, |q, v| v[0] * v[0], R = v[0].cosh()),
         structure!(1, |q, v| v[0] * v[0], R = v[0] * v[0] * v[0] / v[0]),
     ];
     assert_eq!(none.damping, Damping::Absent);

@@ -121,6 +121,8 @@ struct Writer {
     random: Random,
     /// Coefficients handed out, each in turn.
     coefficients: usize,
+    /// Whether what is written is R, which has no kinks under the midpoint rule.
+    is_rayleigh: bool,
 }
 
 /// Numbers in scope, as expressions of type `f64`.
@@ -128,7 +130,13 @@ type Scope = Vec<String>;
 
 impl Writer {
     fn new(index: usize) -> Self {
-        Self { index, n: degrees(index), random: Random(1000 + index as u64), coefficients: 0 }
+        Self {
+            index,
+            n: degrees(index),
+            random: Random(1000 + index as u64),
+            coefficients: 0,
+            is_rayleigh: false,
+        }
     }
 
     /// `self.c[k]`, every coefficient in turn.
@@ -189,6 +197,7 @@ impl Writer {
             },
             "atan2" => format!("{a}.atan2(2.0 + {b} * {b})"),
             "hypot" => format!("{a}.hypot(1.0 + {b} * {b})"),
+            "abs" if self.is_rayleigh => format!("({a} * {a}.abs())"),
             "copysign" => format!("{a}.copysign({b})"),
             "min" | "max" => format!("{a}.{method}({b})"),
             "clamp" => format!("{a}.clamp(-0.8, 0.9)"),
@@ -309,7 +318,9 @@ impl Writer {
             let of_both = self.random.below(2) == 0;
             let arrays: &[&str] = if of_both { &["q", "v"] } else { &["v"] };
             let parameters = arrays.iter().map(|array| format!("{array}: [f64; {n}]"));
+            self.is_rayleigh = true;
             let body = self.body(arrays, METHODS[(index + 17) % METHODS.len()]);
+            self.is_rayleigh = false;
             write!(
                 text,
                 "

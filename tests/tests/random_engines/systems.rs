@@ -238,7 +238,7 @@ macro_rules! systems {
                 let t0 = self.hill((-q[2]), (self.c[2] + q[0]));
                 let scale = |x: f64| x * self.c[3] + (v[0] + v[1]);
                 let t1 = scale(v[0]) * 0.5;
-                t1.abs() + self.c[4] * (-q[2]) + t1
+                (t1 * t1.abs()) + self.c[4] * (-q[2]) + t1
             }
             fn force(&self, q: [f64; 3], v: [f64; 3]) -> [f64; 3] {
                 [
@@ -1394,7 +1394,7 @@ macro_rules! systems {
             fn rayleigh(&self, q: [f64; 3], v: [f64; 3]) -> f64 {
                 let mut t0 = 0.0;
                 for i in 0..3 {
-                    t0 += self.c[0] * v[i].abs() * v[i] / (i as f64 + 1.0);
+                    t0 += self.c[0] * (v[i] * v[i].abs()) * v[i] / (i as f64 + 1.0);
                 }
                 (0.7 * q[0].sin()).cosh() + self.c[2] * v[2].hypot(1.0 + self.c[1] * self.c[1])
                     + t0
@@ -1585,7 +1585,7 @@ macro_rules! systems {
             }
             fn rayleigh(&self, v: [f64; 1]) -> f64 {
                 let t0 = ((v[0] / (2.0 + v[0] * v[0])) - (v[0] / (2.0 + v[0] * v[0])));
-                let t1 = self.hill(t0.abs(), (self.c[2] / (2.0 + v[0] * v[0])));
+                let t1 = self.hill((t0 * t0.abs()), (self.c[2] / (2.0 + v[0] * v[0])));
                 (1.5 + t1 * t1).sqrt() + self.c[3] * (v[0] + t1) + t1
             }
             fn square(x: f64) -> f64 {
@@ -1662,7 +1662,7 @@ macro_rules! systems {
             }
             fn rayleigh(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
                 let t0 = self.hill((v[0] - q[0]), (q[0] + v[0]));
-                t0.abs() + self.c[5] * (v[0] + v[0]) + t0
+                (t0 * t0.abs()) + self.c[5] * (v[0] + v[0]) + t0
             }
             fn square(x: f64) -> f64 {
                 x * x

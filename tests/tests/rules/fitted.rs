@@ -180,7 +180,7 @@ fn a_free_mass_decays_exactly() {
             assert!((step.state.q[0] - 0.2 - travelled(1.0)).abs() < 4e-16, "{z}: {}", step.state.q[0]);
         }
         let step = system.by(OneSided, h).step(&start).unwrap();
-        assert!((step.state.p[0] - 1.0 / (1.0 + 2.0 * z)).abs() < 4e-16, "{z}: {}", step.state.p[0]);
+        assert!((step.state.p[0] - (1.0 + z).powi(-2)).abs() < 4e-16, "{z}: {}", step.state.p[0]);
         // The control: the midpoint rule turns back for z > 1.
         let step = system.by(Midpoint, h).step(&start).unwrap();
         assert!((step.state.p[0] - (1.0 - z) / (1.0 + z)).abs() < 4e-16 * (1.0 + z));
@@ -338,7 +338,6 @@ fn discrete_objects_and_transforms_agree() {
     }
     rayleigh(&pendulum, Fitted, a, b);
     rayleigh(&pendulum, FittedTrapezoidal, a, b);
-    rayleigh(&pendulum, OneSided, a, b);
     rayleigh(&COUPLED, FittedTrapezoidal, c, d);
 }
 

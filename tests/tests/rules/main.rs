@@ -10,4 +10,5 @@ mod gauss_segments;
 mod gauss_structure;
 mod hard;
 mod knots;
+mod one_sided;
 mod order;

@@ -23,7 +23,7 @@ struct Block {
 
 const BLOCK: Block = Block { m: 1.0, k: 1.0, mu: 0.2, belt: 0.0, c: 0.0, load: 0.0 };
 
-#[rayleigh_system(rule = [proximal, midpoint])]
+#[rayleigh_system(rule = proximal)]
 impl Block {
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
         0.5 * self.m * v[0] * v[0] - 0.5 * self.k * q[0] * q[0] + self.load * q[0]
@@ -31,6 +31,20 @@ impl Block {
 
     fn rayleigh(&self, v: [f64; 1]) -> f64 {
         self.mu * (v[0] - self.belt).abs() + 0.5 * self.c * v[0] * v[0]
+    }
+}
+
+/// The block by dual numbers, which do not see the kink.
+struct Unseen(Block);
+
+#[rayleigh_system(derivatives = num_dual)]
+impl Unseen {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * self.0.m * v[0] * v[0] - 0.5 * self.0.k * q[0] * q[0] + self.0.load * q[0]
+    }
+
+    fn rayleigh(&self, v: [f64; 1]) -> f64 {
+        self.0.mu * (v[0] - self.0.belt).abs() + 0.5 * self.0.c * v[0] * v[0]
     }
 }
 
@@ -83,7 +97,7 @@ fn a_block_comes_to_rest_where_it_does_in_closed_form() {
     assert!(off[0] < 1e-3 && off[2] < off[0] / 100.0, "{off:?}");
     // Positive control: by the midpoint rule, which is not told of the kink, p alternates for ever.
     let start = State::from_velocity(&BLOCK, [0.9], [-0.3]).unwrap();
-    let steps = BLOCK.by(Midpoint, 0.1).run(start).take(200).map_while(Result::ok);
+    let steps = Unseen(BLOCK).by(Midpoint, 0.1).run(start).take(200).map_while(Result::ok);
     assert!(!steps.into_iter().any(|step| step.state.p[0] == 0.0));
 }
 
@@ -136,7 +150,7 @@ fn sliding_is_the_midpoint_rule() {
     let block = Block { c: 0.3, ..BLOCK };
     let mut state = State::from_velocity(&block, [0.2], [1.0]).unwrap();
     for _ in 0..5 {
-        let steps = [block.by(Proximal, 0.05).step(&state), block.by(Midpoint, 0.05).step(&state)];
+        let steps = [block.by(Proximal, 0.05).step(&state), Unseen(block).by(Midpoint, 0.05).step(&state)];
         let [a, b] = steps.map(|step| step.unwrap().state);
         assert!((a.q - b.q).amax() < 1e-15 && (a.p - b.p).amax() < 1e-15);
         state = a;

@@ -8,7 +8,7 @@ use dalembert::{Discretise, Lagrangian, Midpoint, State, rayleigh_system};
 
 #[rayleigh_system(rule = midpoint)]
 fn ball(q: [f64; 1], v: [f64; 1], c: f64) -> (f64, f64) {
-    (0.5 * v[0] * v[0] - q[0], c * (v[0] * v[0]).sqrt())
+    (0.5 * v[0] * v[0] - q[0], c * v[0].abs().powf(1.5))
 }
 
 /// The text of an error that is returned by `main`.

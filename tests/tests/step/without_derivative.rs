@@ -171,7 +171,7 @@ both! { Switched SwitchedByDuals { function kind exponent factor x y }
     }
 
     fn rayleigh(&self, v: [f64; 2]) -> f64 {
-        0.1 * (v[0] * v[0] + v[1] * v[1]) + self.term(1.0, v[0], v[1])
+        0.1 * (v[0] * v[0] + v[1] * v[1]) + self.term(1.0, v[0] + v[0] * v[0] * v[0], v[1])
     }
 
     fn force(&self, _q: [f64; 2], v: [f64; 2]) -> [f64; 2] {

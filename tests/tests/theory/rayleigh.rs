@@ -6,6 +6,7 @@ mod dissipation;
 mod equivalence;
 mod modified_linear;
 mod modified_midpoint;
+mod one_end;
 mod potential;
 mod reciprocity;
 mod resplit;

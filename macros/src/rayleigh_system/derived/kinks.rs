@@ -5,7 +5,7 @@
 //! ```
 //!
 //! `abs`, `hypot` and `sqrt` of a sum of squares are lengths; max(a, b) = ½(a + b) + ½|a − b|, and min
-//! likewise. A length whose share of R vanishes with it, as in |v|³, is no kink.
+//! likewise. A length whose share of R vanishes with it, as in |v|³ and v²|v|, is no kink.
 
 use std::collections::HashMap;
 
@@ -19,8 +19,10 @@ pub struct Kinks {
     pub is_uniform: bool,
     /// Whether R holds each |u| with a factor, and not in another function.
     pub is_proportional: bool,
-    /// Kinks that no rule takes.
-    pub faults: Vec<Fault>,
+    /// The methods that write kinks, one for each element.
+    pub written: Vec<Span>,
+    /// Kinks that no rule takes, and the methods that write them.
+    pub faults: Vec<(Fault, Span)>,
     /// R_s, unless nothing is left of R.
     pub(super) smooth: Option<Node>,
     elements: Vec<Element>,
@@ -96,7 +98,9 @@ impl Deriving<'_> {
         for (candidate, &length) in candidates.iter().zip(&lengths) {
             let Some(&share) = by_length.get(&length) else { continue };
             let limit = self.graph.replaced(share, at_rest.clone());
-            if self.graph.constant_value(limit) == Some(0.0) {
+            let without_slip = candidate.slip.iter().map(|&slip| (slip, zero)).collect();
+            let where_it_holds = self.graph.replaced(limit, without_slip);
+            if self.graph.constant_value(where_it_holds) == Some(0.0) {
                 harmless.insert(length, candidate.node);
                 continue;
             }
@@ -105,16 +109,16 @@ impl Deriving<'_> {
         let mut rest = at_rest;
         rest.extend(harmless.iter().map(|(&length, &node)| (length, node)));
         let mut smooth = self.graph.replaced(with_lengths, rest);
-        let is_affine = shares.iter().all(|&(.., share, _)| !lengths.iter().any(|&l| self.reads(share, l)));
+        let own: Vec<bool> = shares
+            .iter()
+            .map(|&(.., share, _)| !lengths.iter().any(|&length| self.reads(share, length)))
+            .collect();
+        let is_affine = own.iter().all(|&is_own| is_own);
         kinks.is_proportional = is_affine;
         if !is_affine {
             // R without the lengths' own shares, |u| as it stands.
             smooth = root;
-            for &(candidate, _, share, limit) in &shares {
-                let is_own = !lengths.iter().any(|&l| self.reads(share, l));
-                if candidate.slip.len() > 1 && !is_own {
-                    kinks.faults.push(Fault::LengthNotProportional);
-                }
+            for &(candidate, .., limit) in &shares {
                 let node = match candidate.kind {
                     Extremum::Length => candidate.node,
                     Extremum::Of(..) => self.graph.function(Function::Abs, candidate.slip[0]),
@@ -123,14 +127,19 @@ impl Deriving<'_> {
                 smooth = self.graph.minus(smooth, term);
             }
         }
-        for (candidate, _, _, limit) in shares {
-            if self.reads_velocity(limit) {
-                kinks.faults.push(Fault::NotApart);
+        for ((candidate, .., limit), is_own) in shares.into_iter().zip(own) {
+            let faults = [
+                (candidate.slip.len() > 1 && !is_own, Fault::LengthNotProportional),
+                (self.reads_velocity(limit), Fault::NotApart),
+                (!self.is_linear_in_velocity(&candidate.slip), Fault::NotLinear),
+            ];
+            let at = self.methods.get(&candidate.node).copied().unwrap_or_else(|| self.system.name.span());
+            let before = kinks.faults.len();
+            kinks.faults.extend(faults.into_iter().filter(|(holds, _)| *holds).map(|(_, fault)| (fault, at)));
+            if kinks.faults.len() == before {
+                kinks.written.push(at);
+                kinks.elements.push(Element { limit, slip: candidate.slip.clone() });
             }
-            if !self.is_linear_in_velocity(&candidate.slip) {
-                kinks.faults.push(Fault::NotLinear);
-            }
-            kinks.elements.push(Element { limit, slip: candidate.slip.clone() });
         }
         kinks.smooth = (self.graph.constant_value(smooth).is_none()).then_some(smooth);
         kinks.is_uniform =

@@ -1,6 +1,6 @@
 //! A tape: graphs evaluated on numbers, which is what the emitted code computes, without compiling it.
 
-use super::{Comparison, Graph, Node, Operation};
+use super::{Graph, Node, Operation};
 
 /// The values of `roots` at (q, v), each operation's result passed through `rounded`. Truth values are 1 and
 /// 0.
@@ -52,17 +52,7 @@ pub fn values_of(
                     at(b)
                 }
             }
-            Operation::Compare(comparison, a, b) => {
-                let (a, b) = (at(a), at(b));
-                truth(match comparison {
-                    Comparison::Less => a < b,
-                    Comparison::LessOrEqual => a <= b,
-                    Comparison::Greater => a > b,
-                    Comparison::GreaterOrEqual => a >= b,
-                    Comparison::Equal => a == b,
-                    Comparison::NotEqual => a != b,
-                })
-            }
+            Operation::Compare(comparison, a, b) => truth(comparison.holds(at(a), at(b))),
             Operation::Is(predicate, x) => truth(predicate.method()(at(x))),
             Operation::Not(a) => truth(at(a) == 0.0),
             Operation::And(a, b) => truth(at(a) != 0.0 && at(b) != 0.0),

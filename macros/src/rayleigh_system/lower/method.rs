@@ -135,6 +135,14 @@ impl Lowering<'_> {
     }
 
     pub fn number_method(&mut self, method: &Ident, receiver: Value, arguments: Vec<Value>) -> Result<Value> {
+        let value = self.method_of_number(method, receiver, arguments)?;
+        if let Value::Real(node) = value {
+            self.methods.entry(node).or_insert_with(|| method.span());
+        }
+        Ok(value)
+    }
+
+    fn method_of_number(&mut self, method: &Ident, receiver: Value, arguments: Vec<Value>) -> Result<Value> {
         let name = method.to_string();
         if matches!(receiver, Value::Real(_)) && !is_method_of_floats(&name) {
             let reason = format!(

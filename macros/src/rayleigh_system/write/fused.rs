@@ -81,7 +81,8 @@ pub fn fused(
         let components = Literal::usize_unsuffixed(friction);
         quote!(::dalembert::generated::Friction<#components>)
     } else {
-        quote!(::dalembert::generated::Free)
+        let border = format_ident!("{}", rule.joint().map_or("Free", |joint| joint.border));
+        quote!(::dalembert::generated::#border)
     };
     let linear = is_linear.then(|| {
         quote!(

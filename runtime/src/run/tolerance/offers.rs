@@ -11,7 +11,8 @@ use crate::system::ActingForce;
 #[diagnostic::on_unimplemented(
     message = "`{Self}` offers no method for a tolerance",
     label = "no self-adjoint rule of order 2 is listed for this system",
-    note = "list one: `#[rayleigh_system(rule = midpoint)]`, or `rule = [trapezoidal, gauss]` for small errors"
+    note = "list one: `#[rayleigh_system(rule = midpoint)]`, or `rule = [trapezoidal, gauss]` for small errors",
+    note = "friction that holds, by `rule = proximal`, has no method to an error: step by `by(Proximal, h)`"
 )]
 pub trait OffersMethods<const N: usize>: ActingForce<N> + Sized {
     /// The methods.

@@ -76,8 +76,6 @@ pub enum OneStage {
     Midpoint,
     /// One at each end.
     Trapezoidal,
-    /// The midpoint rule with all damping at the start.
-    OneSided,
 }
 
 fn inputs<const N: usize>(vector: &nalgebra::SVector<f64, N>) -> Vector<N> {
@@ -97,29 +95,23 @@ fn momenta<S: Reference<N>, const N: usize>(
     h: Rounded,
 ) -> (Vector<N>, Vector<N>, [f64; N]) {
     let at = |share: f64| system.slopes(&combined(|i| q[i] + h * share * v[i]), v);
-    let (momentum, before, after, drag_before, drag_after) = match rule {
+    let (momentum, before, after, drag): (_, _, _, Vector<N>) = match rule {
         OneStage::Midpoint => {
             let m = at(0.5);
             let drag = combined(|i| m.drag[i] * 0.5);
             let force = combined(|i| m.force[i] * 0.5);
-            (m.momentum, force, force, drag, drag)
-        }
-        OneStage::OneSided => {
-            let m = at(0.5);
-            let force = combined(|i| m.force[i] * 0.5);
-            (m.momentum, force, force, system.slopes(q, v).drag, [Rounded::ZERO; N])
+            (m.momentum, force, force, drag)
         }
         OneStage::Trapezoidal => {
             let (start, end) = (at(0.0), at(1.0));
             let drag = combined(|i| (start.drag[i] + end.drag[i]) * 0.25);
             let momentum = combined(|i| (start.momentum[i] + end.momentum[i]) * 0.5);
-            (momentum, start.force.map(|f| f * 0.5), end.force.map(|f| f * 0.5), drag, drag)
+            (momentum, start.force.map(|f| f * 0.5), end.force.map(|f| f * 0.5), drag)
         }
     };
-    let p0 = combined(|i| momentum[i] - h * before[i] + h * drag_before[i]);
-    let p1 = combined(|i| momentum[i] + h * after[i] - h * drag_after[i]);
-    let terms =
-        std::array::from_fn(|i| momentum[i].size() + (h * before[i]).size() + (h * drag_before[i]).size());
+    let p0 = combined(|i| momentum[i] - h * before[i] + h * drag[i]);
+    let p1 = combined(|i| momentum[i] + h * after[i] - h * drag[i]);
+    let terms = std::array::from_fn(|i| momentum[i].size() + (h * before[i]).size() + (h * drag[i]).size());
     (p0, p1, terms)
 }
 
@@ -138,6 +130,33 @@ pub fn one_stage<S: Reference<N>, const N: usize>(
         let terms = terms[i] + p[i].size();
         [(p0[i], terms), (p1[i], terms)]
     })
+}
+
+/// A step with the damping implicit at both ends, from the velocity `v1` at its end: 𝔽⁻, q1, the equation for
+/// v1, and p1.
+pub fn both_ends<S: Reference<N>, const N: usize>(
+    system: &S,
+    state: &State<f64, N>,
+    h: f64,
+    step: &Step<f64, N>,
+    v1: &nalgebra::SVector<f64, N>,
+) -> Judged {
+    let (q, v, v1) = (inputs(&state.q), inputs(&step.velocity), inputs(v1));
+    let half = Rounded::input(h) * 0.5;
+    let middle = combined(|i| q[i] + half * v[i]);
+    let (m, drag) = (system.slopes(&middle, &v), system.slopes(&middle, &v1).drag);
+    let momentum = system.slopes(&inputs(&step.state.q), &v1).momentum;
+    let mut judged = ends(state, Rounded::input(h), step, |i| {
+        let (force, own) = (half * m.force[i], half * m.drag[i]);
+        let terms = m.momentum[i].size() + force.size() + own.size() + state.p[i].abs();
+        [(m.momentum[i] - force + own, terms), (momentum[i], momentum[i].size())]
+    });
+    for i in 0..N {
+        let (force, own) = (half * m.force[i], half * drag[i]);
+        let terms = m.momentum[i].size() + force.size() + own.size() + momentum[i].size();
+        judged.hold(m.momentum[i] + force - momentum[i] - own, terms);
+    }
+    judged
 }
 
 /// Both ends of a step: 𝔽⁻ and 𝔽⁺ by the momenta that its mean velocity has there, each with the size of its

@@ -13,7 +13,7 @@ use dalembert::{
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use super::equations::{Judged, OneStage, fitted, gauss, one_stage, velocity};
+use super::equations::{Judged, OneStage, both_ends, fitted, gauss, one_stage, velocity};
 use super::systems::{Studied, Units};
 use super::tableau::Tableau;
 
@@ -389,8 +389,9 @@ where
         + ForcedLagrangian<N, Scalar = f64>,
 {
     by_rules::<S, N, STAGES>(draws, seed, |(system, state, v, h), random, row| {
-        let judged = |state: &State<f64, N>, step: &Step<f64, N>| {
-            one_stage(OneStage::OneSided, system, state, h, step)
+        let judged = |state: &State<f64, N>, step: &Step<f64, N>| match step.state.velocity(system) {
+            Ok(v1) => both_ends(system, state, h, step, &v1),
+            Err(_) => Judged::NOTHING,
         };
         by_one_stage::<_, OneSided, N>(Way::OneSided, (system, state, v, h), random, row, &judged);
     })

@@ -161,7 +161,7 @@ fn all(class: Class, pair: &Pair, a: f64, h: f64) -> Vec<Found> {
     vec![
         look_at_rule("trapezoidal", pair, Trapezoidal, h, (proportional, Some(rational))),
         look_at_rule("fitted trapezoidal", pair, FittedTrapezoidal, h, (proportional, Some(exact))),
-        look_at_rule("one-sided", pair, OneSided, h, (decoupled, None)),
+        look("one-sided", pair, OneSided, h, (decoupled, None)),
         look_at_rule("midpoint", pair, Midpoint, h, (decoupled, None)),
         look("fitted", pair, Fitted, h, (decoupled, None)),
         look("Gauss 2", pair, Gauss::<2>, h, (decoupled, None)),

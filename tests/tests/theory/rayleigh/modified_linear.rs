@@ -4,8 +4,8 @@ use dalembert::nalgebra::{DMatrix, Matrix2, SMatrix, Vector2, vector};
 use dalembert::rayleigh::modified::{ModifiedLinearSystem, ModifiedLinearSystemError};
 use dalembert::step::Flow;
 use dalembert::{
-    Composition, Discretise, Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, Splitting, State,
-    Trapezoidal, rayleigh_system,
+    Composition, Discretise, Fitted, FittedTrapezoidal, Gauss, Midpoint, Splitting, State, Trapezoidal,
+    rayleigh_system,
 };
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -18,7 +18,7 @@ struct Pair {
     k: [f64; 3],
 }
 
-#[rayleigh_system(rule = [midpoint, trapezoidal, gauss, fitted, fitted_trapezoidal, one_sided])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss, fitted, fitted_trapezoidal])]
 impl Pair {
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
         let ([a, b, c], [d, e, f]) = (self.m, self.k);
@@ -124,7 +124,6 @@ fn cases(system: &Pair, h: f64, states: &[State<f64, 2>; 2]) -> Vec<Case> {
         of("Kahan–Li 6", system, Composition::kahan_li_6(Midpoint), h, states),
         of("Kahan–Li 8", system, Composition::kahan_li_8(Trapezoidal), h, states),
         of("Kahan–Li 6 of fitted", system, Composition::kahan_li_6(FittedTrapezoidal), h, states),
-        of("one-sided", system, OneSided, h, states),
     ]
 }
 
@@ -164,7 +163,7 @@ fn runs_of_linear_systems_lie_on_motions_of_rayleigh_systems() {
         }
     }
     println!("{held} held, off by {furthest:.1e} at most, asymmetry {most:.1e}; {ringing} ring");
-    assert!(held > 16 * systems);
+    assert!(held > 15 * systems);
     // The control: a motion of the system itself.
     let (system, states) = (draw(&mut random), states(&mut random));
     let mut modified = system.by(Midpoint, 0.4).modified_linear_system(&states).unwrap();
