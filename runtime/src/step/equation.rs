@@ -37,6 +37,12 @@ pub(crate) trait StepEquation<S: Scalar, const N: usize> {
         None
     }
 
+    /// Whether what the residual does not see holds at its root.
+    fn is_held(&self, segment: &Segment<S, N>) -> bool {
+        let _ = segment;
+        true
+    }
+
     /// The mass that the velocity has in p0: the metric that tells which of two velocities is longer.
     fn inertia(&self, q: &SVector<S, N>, v: &SVector<S, N>) -> SMatrix<S, N, N>;
 

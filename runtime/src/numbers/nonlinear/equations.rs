@@ -33,6 +33,12 @@ pub trait Evaluate<S> {
 
     /// The sizes of terms that cancel in p0.
     fn cancelling(&self, q: &[S], v: &[S], h: S, terms: &mut [S]);
+
+    /// Whether what p0 does not see holds at its root.
+    fn is_held(&self, q: &[S], v: &[S], h: S) -> bool {
+        let _ = (q, v, h);
+        true
+    }
 }
 
 /// A matrix of the equation.

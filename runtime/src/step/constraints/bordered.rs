@@ -48,11 +48,6 @@ impl<S: Scalar, const N: usize, const M: usize> Bordered<S, N, M> {
         Some(Self { directions, rows, complement })
     }
 
-    /// Whether constraints are redundant, or singular.
-    pub(super) fn is_deficient(&self) -> bool {
-        self.complement.is_deficient()
-    }
-
     /// κ of what is `left` without constraints on the segment itself.
     pub(super) fn multipliers(&self, factored: &impl Factored<S, N>, left: &SVector<S, N>) -> SVector<S, M> {
         self.multipliers_by(factored, left, &self.rows.values)

@@ -139,6 +139,10 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Evaluate<S> for Evaluatio
     fn cancelling(&self, q: &[S], v: &[S], h: S, terms: &mut [S]) {
         write(terms, &self.of.equation.cancelling(&Segment { q0: vector(q), v: vector(v), h }));
     }
+
+    fn is_held(&self, q: &[S], v: &[S], h: S) -> bool {
+        self.of.equation.is_held(&Segment { q0: vector(q), v: vector(v), h })
+    }
 }
 
 impl<S: Scalar> From<Solved<S>> for Report<S> {
