@@ -37,6 +37,17 @@ pub(crate) trait StepEquation<S: Scalar, const N: usize> {
         None
     }
 
+    /// A correction without what leads off the constraints on the segment, where there are any; no number
+    /// where they are singular.
+    fn along_constraints(
+        &self,
+        segment: &Segment<S, N>,
+        correction: &SVector<S, N>,
+    ) -> Option<SVector<S, N>> {
+        let _ = (segment, correction);
+        None
+    }
+
     /// Whether what the residual does not see holds at its root.
     fn is_held(&self, segment: &Segment<S, N>) -> bool {
         let _ = segment;

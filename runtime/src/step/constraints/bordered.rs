@@ -101,6 +101,12 @@ impl<S: Scalar, const N: usize, const M: usize> Bordered<S, N, M> {
         self.rows.is_off().then(|| factored.solve(&(self.directions * self.complement.solve(values))))
     }
 
+    /// A correction of v̄ without what leads off the constraints.
+    pub(super) fn along(&self, factored: &impl Factored<S, N>, correction: &SVector<S, N>) -> SVector<S, N> {
+        let kappa = self.complement.solve(&(self.rows.gradients * correction));
+        correction - factored.solve(&(self.directions * kappa))
+    }
+
     /// F on another segment, with κ refined once.
     pub(super) fn residual_near<L>(
         &self,

@@ -241,6 +241,16 @@ where
         last.as_ref().map(|(factored, _)| factored.solve(residual))
     }
 
+    fn along_constraints(
+        &self,
+        segment: &Segment<L::Scalar, N>,
+        correction: &SVector<L::Scalar, N>,
+    ) -> Option<SVector<L::Scalar, N>> {
+        let found =
+            self.evaluated(segment).1.map(|(factored, bordered)| bordered.along(&factored, correction));
+        Some(found.unwrap_or_else(|| SVector::repeat(L::Scalar::constant(f64::NAN))))
+    }
+
     fn is_held(&self, segment: &Segment<L::Scalar, N>) -> bool {
         self.brought_on(*segment).is_ok()
     }
