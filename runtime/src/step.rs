@@ -78,7 +78,7 @@ pub(crate) use regular::require_regular;
 pub use second_order::{DiscreteSecondOrder, StepHessian};
 pub use segment::Segment;
 pub use solve::require_step_size;
-pub(crate) use solve::{of_any_step, or_without_guess, step_by, step_within_by};
+pub(crate) use solve::{of_any_step, or_without_guess, step_at_length_by, step_by, step_within_by};
 pub use solved_for_velocity::SolvedForVelocity;
 pub(crate) use start::{of_equation_and_step, verify_momenta, verify_start};
 pub use state::State;

@@ -18,9 +18,9 @@ mod system;
 
 pub use drawn::{Drawn, Kind};
 pub use equations::{Number, Rule};
-pub use judged::{Judged, off};
+pub use judged::{Judged, MOST, MOST_OFF, off};
 pub use oracle::{Curve, End, Problem, Root};
-pub use report::{MOST, MOST_OFF, report};
+pub use report::report;
 pub use run::{Judged as JudgedSystem, Outcome, Refused, run, start};
 pub use shape::{Force, ForceValues, Joint, JointValues, Shape, Values};
 pub use system::Mechanism;

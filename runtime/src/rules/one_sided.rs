@@ -47,7 +47,9 @@ use end::{End, LinearizedEnd};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OneSided;
 
-impl SolvedForVelocity for OneSided {}
+impl SolvedForVelocity for OneSided {
+    const TAKES_MASSLESS: bool = true;
+}
 
 /// (h/2) ∂R/∂v(q̄, v).
 fn half_drag<L: Rayleigh<N>, const N: usize>(

@@ -38,7 +38,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::numbers::Factored;
 use crate::step::{
     Border, BoundedStep, ClosedForm, Discrete, LegendreDerivatives, Momenta, MomentaBy, PhaseMatrix, Segment,
-    State, StateBy, Step, StepError, step_by, step_within_by,
+    State, StateBy, Step, StepError, step_at_length_by, step_by, step_within_by,
 };
 use crate::system::Constrained;
 pub use bordered::Bordered;
@@ -68,7 +68,15 @@ where
     ) -> Result<Step<L::Scalar, N>, StepError> {
         let equation = OnConstraints::<L, R, N, M>::new(system, state)?;
         let step = step_by(system, &equation, state, h, guess).map_err(|error| equation.explained(error))?;
-        equation.on_constraints(step, h)
+        match equation.on_constraints(step, h) {
+            // A guess that has led off N is left by the caller.
+            Err(StepError::NoRealSolution { .. }) if guess.is_none() => {
+                step_at_length_by(system, &equation, state, h)
+                    .and_then(|step| equation.on_constraints(step, h))
+                    .map_err(|error| equation.explained(error))
+            }
+            other => other,
+        }
     }
 
     fn step_within(

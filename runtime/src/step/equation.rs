@@ -37,6 +37,23 @@ pub(crate) trait StepEquation<S: Scalar, const N: usize> {
         None
     }
 
+    /// A correction without what leads off the constraints on the segment, where there are any; no number
+    /// where they are singular.
+    fn along_constraints(
+        &self,
+        segment: &Segment<S, N>,
+        correction: &SVector<S, N>,
+    ) -> Option<SVector<S, N>> {
+        let _ = (segment, correction);
+        None
+    }
+
+    /// Whether what the residual does not see holds at its root.
+    fn is_held(&self, segment: &Segment<S, N>) -> bool {
+        let _ = segment;
+        true
+    }
+
     /// The mass that the velocity has in p0 at the start of a segment, and what friction makes of it where
     /// there is none: the metric that tells which of two velocities is longer.
     fn inertia(&self, segment: &Segment<S, N>) -> SMatrix<S, N, N>;

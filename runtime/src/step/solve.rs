@@ -8,7 +8,7 @@ use crate::step::equation::{Equation, StepEquation};
 use crate::step::massless::Massless;
 use crate::step::{
     BoundedStep, Segment, State, Step, StepError, newton,
-    newton::{NotSolved, StepProblem},
+    newton::{NotSolved, Solution, StepProblem},
     require_regular,
 };
 use crate::system::{Lagrangian, Quantity, derivatives_apart};
@@ -33,19 +33,65 @@ where
     let solution = match newton::quick(equation, state, h, start) {
         Ok(solution) => solution,
         Err(reached) => {
-            let problem = StepProblem { equation, state, h };
             // A guess is the caller's: from elsewhere there may be another root.
             let way = match guess {
                 Some(_) => Way::Damped { iterations: reached.iterations },
                 None => Way::Every { iterations: reached.iterations, start: start.as_slice() },
             };
-            problem.solved(way, &reached.v).map_err(|NotSolved { error, lost }| {
-                let error = explained(error, &|| equation.cause(&lost?));
-                in_arguments(state, guess)
-                    .unwrap_or_else(|| of_any_step(system, state, equation.takes_massless(), error))
-            })?
+            solved_at_length(system, equation, (state, h, guess), way, &reached.v)?
         }
     };
+    completed(equation, (state, h, guess), &solution)
+}
+
+/// The step from the state alone by [`Way::Every`], where what the quick method has led to does not hold
+/// ([`is_held`](StepEquation::is_held)).
+///
+/// # Errors
+/// Those of [`step_by`].
+#[cold]
+#[inline(never)]
+pub(crate) fn step_at_length_by<L, const N: usize>(
+    system: &L,
+    equation: &impl StepEquation<L::Scalar, N>,
+    state: &State<L::Scalar, N>,
+    h: L::Scalar,
+) -> Result<Step<L::Scalar, N>, StepError>
+where
+    L: Lagrangian<N> + ?Sized,
+{
+    let start = first_guess(system, equation, state)?;
+    let way = Way::Every { iterations: 0, start: start.as_slice() };
+    let solution = solved_at_length(system, equation, (state, h, None), way, &start)?;
+    completed(equation, (state, h, None), &solution)
+}
+
+/// A state, h and a guess.
+type Asked<'a, S, const N: usize> = (&'a State<S, N>, S, Option<&'a SVector<S, N>>);
+
+fn solved_at_length<L, const N: usize>(
+    system: &L,
+    equation: &impl StepEquation<L::Scalar, N>,
+    (state, h, guess): Asked<'_, L::Scalar, N>,
+    way: Way<'_, L::Scalar>,
+    from: &SVector<L::Scalar, N>,
+) -> Result<Solution<L::Scalar, N>, StepError>
+where
+    L: Lagrangian<N> + ?Sized,
+{
+    let problem = StepProblem { equation, state, h };
+    problem.solved(way, from).map_err(|NotSolved { error, lost }| {
+        let error = explained(error, &|| equation.cause(&lost?));
+        in_arguments(state, guess).unwrap_or_else(|| of_any_step(system, state, equation.takes_massless(), error))
+    })
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn completed<S: Scalar, const N: usize>(
+    equation: &impl StepEquation<S, N>,
+    (state, h, guess): Asked<'_, S, N>,
+    solution: &Solution<S, N>,
+) -> Result<Step<S, N>, StepError> {
     // An argument that is not finite shows here or has failed above: none is looked at before.
     Step::completed(state, h, solution.unknown, &solution.momenta, solution.report).map_err(|error| {
         in_arguments(state, guess).unwrap_or_else(|| {

@@ -90,6 +90,8 @@ pub(super) struct Equations<'a> {
     /// g(q0) and G(q0), of the constraints that count.
     pub(super) g0: Vec<DoubleDouble>,
     pub(super) directions: Rows,
+    /// g at the end: 0, or what rounding leaves.
+    end: Vec<DoubleDouble>,
     /// Units of v̄.
     units: Vec<f64>,
 }
@@ -129,10 +131,20 @@ impl<'a> Equations<'a> {
         let counted = independent(&rows, &values.mass);
         let g0 = counted.iter().map(|k| g[*k]).collect();
         let directions: Rows = counted.iter().map(|k| rows[*k].clone()).collect();
+        let end = vec![DoubleDouble::ZERO; counted.len()];
         let lengths = q.iter().fold(0.0_f64, |size, q| size.max(q.high.abs()));
         let speeds = p.iter().zip(&values.mass).fold(0.0_f64, |size, (p, m)| size.max((p / m).abs()));
         let unit = speeds.max(lengths / problem.h.abs() * 1e-3).max(f64::MIN_POSITIVE);
-        Self { of: problem, n, q, p: numbers(p), counted, g0, directions, units: vec![unit; n] }
+        Self { of: problem, n, q, p: numbers(p), counted, g0, directions, end, units: vec![unit; n] }
+    }
+
+    /// With the constraints at the end as the velocity `v` leaves them: of lengths that differ by rounding,
+    /// which [`off`](super::off) holds against it. Those of a mechanism that is flat to 10⁻⁷ know its height
+    /// to a few percent: as they are rounded they may belong to none.
+    pub(super) fn with_rounding(self, v: &[f64]) -> Self {
+        let Problem { shape, values, .. } = self.of;
+        let (g, _) = shape.constraints(values, &self.end(&numbers(v), 1.0));
+        Self { end: self.counted.iter().map(|k| g[*k]).collect(), ..self }
     }
 
     fn h(&self, share: f64) -> DoubleDouble {
@@ -159,8 +171,8 @@ impl<'a> Equations<'a> {
         let gradients: Rows = self.counted.iter().map(|k| rows[*k].clone()).collect();
         // What q0 is off by rounding is no speed of a short step.
         let left = DoubleDouble::new(1.0 - share);
-        for (k, g0) in self.counted.iter().zip(&self.g0) {
-            residual.push((g[*k] - left * *g0) / self.h(share));
+        for ((k, g0), end) in self.counted.iter().zip(&self.g0).zip(&self.end) {
+            residual.push((g[*k] - *end - left * (*g0 - *end)) / self.h(share));
         }
         (residual, gradients)
     }

@@ -1,13 +1,6 @@
 //! A run as a line of a study.
 
-use super::{Drawn, Outcome, run, run::Judged};
-
-/// A violation is beyond this many units of rounding: 4 floors of 4ε, and what results are rounded by
-/// (`tests/examples/verdicts`).
-pub const MOST: f64 = 36.0;
-
-/// Roundings of its terms that a constraint may be off.
-pub const MOST_OFF: f64 = 10.0;
+use super::{Drawn, MOST, MOST_OFF, Outcome, run, run::Judged};
 
 impl Outcome {
     /// Whether nothing is wrong with the run.

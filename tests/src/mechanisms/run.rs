@@ -149,11 +149,7 @@ impl Outcome {
         }
         if self.followed[0] < FOLLOWED {
             self.followed[0] += 1;
-            let is_there = match problem.followed() {
-                Curve::Root(root) => problem.is_root(&root, step.velocity.as_slice()),
-                Curve::Ends(_) => false,
-            };
-            self.followed[1] += usize::from(!is_there);
+            self.followed[1] += usize::from(!problem.is_followed(step.velocity.as_slice()));
         }
     }
 }

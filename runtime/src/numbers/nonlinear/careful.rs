@@ -28,8 +28,26 @@ struct Iterate<'r, S> {
 }
 
 /// The damped method, and the verdicts, from the velocity of `root`, to which `iterations` have led.
-#[inline(never)]
+///
+/// # Errors
+/// [`Unsolved`]: [`NoRoot`](Unsolved::NoRoot) as well where something does not hold that the equation does
+/// not see.
 pub(super) fn careful<S: Precision>(
+    of: &mut Equations<'_, S>,
+    iterations: u32,
+    root: &mut Root<'_, S>,
+    room: Room<'_, S>,
+) -> Result<Solved<S>, Unsolved<S>> {
+    let found = damped(of, iterations, root, room)?;
+    if of.evaluate.is_held(of.q, root.v, of.h) {
+        Ok(found)
+    } else {
+        Err(Unsolved::NoRoot { iteration: found.iterations, residual: found.residual })
+    }
+}
+
+#[inline(never)]
+fn damped<S: Precision>(
     of: &mut Equations<'_, S>,
     mut iterations: u32,
     root: &mut Root<'_, S>,

@@ -23,7 +23,7 @@ const LEAST_BESIDE: f64 = FIRST;
 const LEAST: f64 = FIRST * FIRST * FIRST;
 
 /// Parts that are tried.
-const PARTS: u32 = 48;
+const PARTS: u32 = 128;
 
 /// Iterations for each: what needs more has left the root.
 pub(crate) const ITERATIONS: u32 = 10;
@@ -123,7 +123,9 @@ fn solved<S: Precision>(
     }
 }
 
-/// The root for the whole of h, from `start` part by part.
+/// The root for the whole of h, from `start` part by part: each from where a parabola through the last three
+/// leads. Where constraints nearly depend on one another, Newton's method leads to the root from next to it
+/// alone.
 #[inline(never)]
 fn in_parts<S: Precision>(
     of: &mut Equations<'_, S>,
@@ -131,16 +133,31 @@ fn in_parts<S: Precision>(
     root: &mut Root<'_, S>,
     mut room: Room<'_, S>,
 ) -> Option<Solved<S>> {
-    let at = room.vector();
+    let [at, slope, curvature] = room.vectors();
     copy(at, start);
+    slope.fill(S::zero());
+    curvature.fill(S::zero());
     let (h, held) = (of.h, of.held);
+    // The share of h that is reached, and the last part of it.
+    let (mut reached, mut last) = (S::zero(), S::zero());
     let is_reached = along_h(&mut |share| {
-        copy(root.v, at);
-        let part = careful(&mut of.with(h * share, held), MAX_ITERATIONS - ITERATIONS, root, room.inner());
-        if part.is_ok() {
-            copy(at, root.v);
+        let part = share - reached;
+        let of_curvature = part * (part + last);
+        let terms = at.iter().zip(slope.iter()).zip(curvature.iter());
+        for (v, ((at, slope), curvature)) in root.v.iter_mut().zip(terms) {
+            *v = *at + *slope * part + *curvature * of_curvature;
         }
-        part.is_ok()
+        let found = careful(&mut of.with(h * share, held), MAX_ITERATIONS - ITERATIONS, root, room.inner());
+        if found.is_ok() {
+            let terms = at.iter_mut().zip(slope.iter_mut()).zip(curvature.iter_mut());
+            for (v, ((at, slope), curvature)) in root.v.iter().zip(terms) {
+                let next = (*v - *at) / part;
+                *curvature = if last > S::zero() { (next - *slope) / (part + last) } else { S::zero() };
+                (*at, *slope) = (*v, next);
+            }
+            (last, reached) = (part, share);
+        }
+        found.is_ok()
     });
     copy(root.v, at);
     if is_reached { careful(of, 0, root, room).ok() } else { None }

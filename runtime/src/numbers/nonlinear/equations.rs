@@ -33,6 +33,19 @@ pub trait Evaluate<S> {
 
     /// The sizes of terms that cancel in p0.
     fn cancelling(&self, q: &[S], v: &[S], h: S, terms: &mut [S]);
+
+    /// Writes what constraints at (q, v, h) leave of a correction, and whether there are any: a matrix beside
+    /// the present one.
+    fn along_constraints(&mut self, q: &[S], v: &[S], h: S, correction: &[S], along: &mut [S]) -> bool {
+        let _ = (q, v, h, correction, along);
+        false
+    }
+
+    /// Whether what p0 does not see holds at its root.
+    fn is_held(&self, q: &[S], v: &[S], h: S) -> bool {
+        let _ = (q, v, h);
+        true
+    }
 }
 
 /// A matrix of the equation.

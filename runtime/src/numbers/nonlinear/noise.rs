@@ -78,8 +78,9 @@ impl<S: Precision> Left<'_, S> {
     }
 }
 
-/// Whether matrices at points around `at` correct the `residual` as that did which gave the `correction`. The
-/// present matrix is another one then.
+/// Whether matrices at points around `at` correct the `residual` as that did which gave the `correction`, and
+/// constraints there leave the same of it: of these the matrix alone, often one everywhere, does not tell.
+/// The present matrix is another one then.
 #[cold]
 #[inline(never)]
 pub(super) fn is_same_around<S: Precision>(
@@ -89,8 +90,10 @@ pub(super) fn is_same_around<S: Precision>(
     correction: &[S],
     mut room: Room<'_, S>,
 ) -> bool {
-    let [inertia, point, unused, own] = room.vectors();
+    let [inertia, point, unused, own, along] = room.vectors();
     of.evaluate.diagonal(Matrix::Mass { q: of.q, v: at }, inertia);
+    let is_constrained = of.evaluate.along_constraints(of.q, at, of.h, correction, along);
+    let here: &[S] = if is_constrained { along } else { correction };
     for direction in 0..DIRECTIONS {
         for away in &AROUND {
             for (i, ((point, at), correction)) in point.iter_mut().zip(at).zip(correction).enumerate() {
@@ -100,9 +103,13 @@ pub(super) fn is_same_around<S: Precision>(
             if of.evaluate.solve(residual, own).is_err() {
                 return false;
             }
+            if is_constrained {
+                copy(unused, own);
+                of.evaluate.along_constraints(of.q, point, of.h, unused, own);
+            }
             // Σ |Mᵢᵢ| vᵢ² for the square of a length: neither unit nor neighbour changes it.
             let (mut apart, mut all) = (S::zero(), S::zero());
-            for ((own, correction), mass) in own.iter().zip(correction).zip(inertia.iter()) {
+            for ((own, correction), mass) in own.iter().zip(here).zip(inertia.iter()) {
                 let difference = *own - *correction;
                 apart += difference * difference * *mass;
                 all += *correction * *correction * *mass;

@@ -43,8 +43,8 @@ where
         without_end(self.system, segment)
     }
 
-    fn inertia(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N> {
-        self.by_rule.inertia(q, v)
+    fn inertia(&self, segment: &Segment<L::Scalar, N>) -> SMatrix<L::Scalar, N, N> {
+        self.by_rule.inertia(segment)
     }
 
     fn cancelling(&self, segment: &Segment<L::Scalar, N>) -> SVector<L::Scalar, N> {
@@ -53,6 +53,10 @@ where
 
     fn kind(&self) -> Equation {
         self.by_rule.kind()
+    }
+
+    fn takes_massless(&self) -> bool {
+        self.by_rule.takes_massless()
     }
 
     fn cause(&self, segment: &Segment<L::Scalar, N>) -> Option<StepError> {

@@ -48,11 +48,6 @@ impl<S: Scalar, const N: usize, const M: usize> Bordered<S, N, M> {
         Some(Self { directions, rows, complement })
     }
 
-    /// Whether constraints are redundant, or singular.
-    pub(super) fn is_deficient(&self) -> bool {
-        self.complement.is_deficient()
-    }
-
     /// κ of what is `left` without constraints on the segment itself.
     pub(super) fn multipliers(&self, factored: &impl Factored<S, N>, left: &SVector<S, N>) -> SVector<S, M> {
         self.multipliers_by(factored, left, &self.rows.values)
@@ -104,6 +99,12 @@ impl<S: Scalar, const N: usize, const M: usize> Bordered<S, N, M> {
     pub(super) fn correction(&self, factored: &impl Factored<S, N>) -> Option<SVector<S, N>> {
         let values = &self.rows.values;
         self.rows.is_off().then(|| factored.solve(&(self.directions * self.complement.solve(values))))
+    }
+
+    /// A correction of v̄ without what leads off the constraints.
+    pub(super) fn along(&self, factored: &impl Factored<S, N>, correction: &SVector<S, N>) -> SVector<S, N> {
+        let kappa = self.complement.solve(&(self.rows.gradients * correction));
+        correction - factored.solve(&(self.directions * kappa))
     }
 
     /// F on another segment, with κ refined once.

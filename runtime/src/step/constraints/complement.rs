@@ -29,11 +29,6 @@ impl<S: Scalar, const M: usize> Complement<S, M> {
         }
     }
 
-    /// Whether constraints are redundant where this was formed.
-    pub(in crate::step) fn is_deficient(&self) -> bool {
-        matches!(self, Self::Dependent(independent) if independent.is_deficient())
-    }
-
     /// The solution of S x = `right`: of redundant constraints that of least Σ |Sₖₖ| xₖ².
     pub(in crate::step) fn solve(&self, right: &SVector<S, M>) -> SVector<S, M> {
         match self {

@@ -26,14 +26,15 @@ const LOST: f64 = 16.0;
 const LITTLE: f64 = 0.01;
 
 /// M constraints of which some may be redundant, ready to solve S κ = b with: κ = Σₖ hₖ (eₖ·b) over those
-/// that are not, where yₖ = Σₗ eₖₗ Gₗ(q1), xₖ = dₖ Σₗ hₖₗ Gₗ(q0), and Σₗ |Sₗₗ| κₗ² is least.
+/// that are not, where yₖ = Σₗ eₖₗ Gₗ(q1), xₖ = dₖ Σₗ hₖₗ Gₗ(q0). Σₗ |Sₗₗ| κₗ² is least, and where b
+/// contradicts itself Σₗ (S κ − b)ₗ²/|Sₗₗ|: a constraint that is left out would have all of the contradiction,
+/// and be off by many roundings, or on another branch of the others.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::step) struct Independent<S: Scalar, const M: usize> {
     /// eₖ by columns, 0 of a redundant constraint.
     of_rows: SMatrix<S, M, M>,
     /// hₖ by columns.
     of_directions: SMatrix<S, M, M>,
-    is_deficient: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -154,46 +155,17 @@ impl<S: Scalar, const M: usize> Independent<S, M> {
         Some(Self::of_least_norm(&all))
     }
 
-    /// With what the redundant constraints add to κ, without a reaction, taken off.
+    /// κ without what the redundant constraints add to it without a reaction, and b without what no reaction
+    /// moves.
     fn of_least_norm<const N: usize>(all: &[Left<S, N, M>; M]) -> Self {
-        let mut scales: SVector<S, M> = nalgebra::zero();
-        scales.as_mut_slice().iter_mut().zip(all).for_each(|(scale, left)| *scale = left.weight.sqrt());
-        // Of length 1, at right angles: combinations of the constraints that make no reaction.
-        let mut without: SMatrix<S, M, M> = nalgebra::zero();
-        let at_right_angles = |of: &SVector<S, M>, without: &SMatrix<S, M, M>| {
-            let mut to = of.component_mul(&scales);
-            for (column, left) in without.data.0.iter().zip(all) {
-                if left.kind == Kind::Redundant {
-                    let column = SVector::from(*column);
-                    to -= column * dot(&column, &to);
-                }
-            }
-            to
-        };
-        for (k, left) in all.iter().enumerate().filter(|(_, left)| left.kind == Kind::Redundant) {
-            let found = at_right_angles(&left.of_directions, &without);
-            let length = dot(&found, &found).sqrt();
-            if let Some(column) = without.data.0.get_mut(k) {
-                [*column] = (found / length).data.0;
-            }
-        }
-        let (mut of_rows, mut of_directions): (SMatrix<S, M, M>, SMatrix<S, M, M>) =
-            (nalgebra::zero(), nalgebra::zero());
-        let columns = of_rows.data.0.iter_mut().zip(&mut of_directions.data.0);
-        for (left, (rows, directions)) in all.iter().zip(columns) {
+        let of_rows = apart_from_redundant(all, |left| &left.of_rows);
+        let mut of_directions = apart_from_redundant(all, |left| &left.of_directions);
+        for (left, column) in all.iter().zip(&mut of_directions.data.0) {
             if left.kind == Kind::Taken {
-                let least = at_right_angles(&left.of_directions, &without);
-                [*rows] = left.of_rows.data.0;
-                [*directions] = (least.component_div(&scales) / left.pivot).data.0;
+                [*column] = (SVector::from(*column) / left.pivot).data.0;
             }
         }
-        let is_deficient = all.iter().any(|left| left.kind == Kind::Redundant);
-        Self { of_rows, of_directions, is_deficient }
-    }
-
-    /// Whether constraints are redundant.
-    pub(in crate::step) fn is_deficient(&self) -> bool {
-        self.is_deficient
+        Self { of_rows, of_directions }
     }
 
     /// The solution of S κ = `right`.
@@ -204,4 +176,39 @@ impl<S: Scalar, const M: usize> Independent<S, M> {
         }
         kappa
     }
+}
+
+/// The combinations of those taken, each with what is at right angles to those of the redundant ones, in
+/// which S is 0; lengths are those of √|Sₖₖ| times the entries.
+fn apart_from_redundant<S: Scalar, const N: usize, const M: usize>(
+    all: &[Left<S, N, M>; M],
+    of: fn(&Left<S, N, M>) -> &SVector<S, M>,
+) -> SMatrix<S, M, M> {
+    let mut scales: SVector<S, M> = nalgebra::zero();
+    scales.as_mut_slice().iter_mut().zip(all).for_each(|(scale, left)| *scale = left.weight.sqrt());
+    // Those of the redundant ones, of length 1 and at right angles to one another.
+    let mut without: SMatrix<S, M, M> = nalgebra::zero();
+    let at_right_angles = |left: &Left<S, N, M>, without: &SMatrix<S, M, M>| {
+        let mut to = of(left).component_mul(&scales);
+        for (column, left) in without.data.0.iter().zip(all) {
+            if left.kind == Kind::Redundant {
+                let column = SVector::from(*column);
+                to -= column * dot(&column, &to);
+            }
+        }
+        to
+    };
+    for (k, left) in all.iter().enumerate().filter(|(_, left)| left.kind == Kind::Redundant) {
+        let found = at_right_angles(left, &without);
+        if let Some(column) = without.data.0.get_mut(k) {
+            [*column] = (found / dot(&found, &found).sqrt()).data.0;
+        }
+    }
+    let mut combinations: SMatrix<S, M, M> = nalgebra::zero();
+    for (left, column) in all.iter().zip(&mut combinations.data.0) {
+        if left.kind == Kind::Taken {
+            [*column] = at_right_angles(left, &without).component_div(&scales).data.0;
+        }
+    }
+    combinations
 }

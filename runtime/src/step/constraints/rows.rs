@@ -9,9 +9,6 @@ use crate::system::{Constrained, ConstrainedParameters, sizes};
 /// Roundings of the terms of a constraint below which its value counts as 0.
 const ROUNDINGS: f64 = 4.0;
 
-/// Roundings that a step may leave of a constraint where it cannot be corrected further.
-const MOST_ROUNDINGS: f64 = 16.0;
-
 /// M constraints on a segment: c = g(q1)/h or ψ(q̄, v̄).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rows<S, const N: usize, const M: usize> {
@@ -79,9 +76,9 @@ impl<S: Scalar, const N: usize, const M: usize> Rows<S, N, M> {
         rows
     }
 
-    /// The first holonomic constraint that the end of the segment is off by more than some roundings, with
-    /// its value.
-    pub(super) fn far_off<L>(system: &L, segment: &Segment<S, N>) -> Option<(usize, S)>
+    /// Fails where the end of the segment is off a holonomic constraint by more roundings than `most`, with
+    /// the first one and its value.
+    pub(super) fn far_off<L>(system: &L, segment: &Segment<S, N>, most: f64) -> Result<(), (usize, S)>
     where
         L: Constrained<N, M, Scalar = S>,
     {
@@ -89,11 +86,12 @@ impl<S: Scalar, const N: usize, const M: usize> Rows<S, N, M> {
             let end = segment.end();
             let (values, gradients) = system.constraint_gradients(&end);
             let terms = sizes(&gradients, &(segment.q0.abs() + (segment.v * segment.h).abs()));
-            let most =
-                (terms + system.constraint_rounding(&end)) * (S::EPSILON * S::constant(MOST_ROUNDINGS));
+            let most = (terms + system.constraint_rounding(&end)) * (S::EPSILON * S::constant(most));
             let holonomic = values.as_slice().iter().zip(most.as_slice()).take(M - L::OF_VELOCITY.min(M));
             let mut found = holonomic.enumerate();
-            found.find(|(_, (value, most))| value.abs() > **most).map(|(k, (value, _))| (k, *value))
+            // One without a value is named where the momentum is asked for.
+            let first = found.find(|(_, (value, most))| value.abs() > **most);
+            first.map_or(Ok(()), |(k, (value, _))| Err((k, *value)))
         })
     }
 

@@ -144,6 +144,19 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Evaluate<S> for Evaluatio
     fn cancelling(&self, q: &[S], v: &[S], h: S, terms: &mut [S]) {
         write(terms, &self.of.equation.cancelling(&Segment { q0: vector(q), v: vector(v), h }));
     }
+
+    fn along_constraints(&mut self, q: &[S], v: &[S], h: S, correction: &[S], along: &mut [S]) -> bool {
+        let segment = Segment { q0: vector(q), v: vector(v), h };
+        let found = self.of.equation.along_constraints(&segment, &vector(correction));
+        found.is_some_and(|found| {
+            write(along, &found);
+            true
+        })
+    }
+
+    fn is_held(&self, q: &[S], v: &[S], h: S) -> bool {
+        self.of.equation.is_held(&Segment { q0: vector(q), v: vector(v), h })
+    }
 }
 
 impl<S: Scalar> From<Solved<S>> for Report<S> {

@@ -143,6 +143,14 @@ fn contradictions_and_constraints_without_a_gradient_are_dependent() -> Result<(
     Ok(())
 }
 
+#[test]
+fn what_rounding_contradicts_is_shared() -> Result<(), StepError> {
+    let contradicting = Contradiction { d: 8.0 * f64::EPSILON, power: 1 };
+    let state = State::nearest(&contradicting, [1.0, 0.0], [0.0, 1.0])?;
+    assert_eq!(state.q[0] - 1.0, 4.0 * f64::EPSILON);
+    Ok(())
+}
+
 /// Crank .3, coupler .9, rocker .7 on pivots at (0, 0) and (1, 0): a loop of three bars, nine coordinates.
 macro_rules! four_bar {
     ($name:ident, $count:literal, $q:ident, [$($once_more:expr)?]) => {
