@@ -18,6 +18,7 @@ crate::parameters! {
 }
 
 #[rayleigh_system(rule = proximal)]
+#[allow(clippy::needless_range_loop, reason = "indices as in the formula")]
 impl Blocks {
     fn lagrangian(&self, q: [f64; 3], v: [f64; 3]) -> f64 {
         let mut sum = -0.5 * self.k[0] * q[0] * q[0] - 0.5 * self.k[3] * q[2] * q[2];

@@ -1,4 +1,5 @@
-//! The block of `stick_slip` beside its motion written out: Runge–Kutta while it slips, a line while it sticks.
+//! The block of `stick_slip` beside its motion written out: Runge–Kutta while it slips, a line while it
+//! sticks.
 
 use crate::stick_slip::{BELT, FRICTION, H, MASS, STIFFNESS, hanging, on_the_belt, slips};
 

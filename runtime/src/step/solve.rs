@@ -82,7 +82,8 @@ where
     let problem = StepProblem { equation, state, h };
     problem.solved(way, from).map_err(|NotSolved { error, lost }| {
         let error = explained(error, &|| equation.cause(&lost?));
-        in_arguments(state, guess).unwrap_or_else(|| of_any_step(system, state, equation.takes_massless(), error))
+        in_arguments(state, guess)
+            .unwrap_or_else(|| of_any_step(system, state, equation.takes_massless(), error))
     })
 }
 

@@ -143,6 +143,9 @@ impl Expressions {
                 Operation::Negate(a) => at(a).negated(),
                 Operation::Function(function, x) => at(x).function(Function::name(function)),
                 Operation::Pair(function, a, b) => at(a).pair(PairFunction::name(function), at(b)),
+                Operation::Characteristic(..) => {
+                    return Err(String::from("a characteristic, which no program drawn here has"));
+                }
                 Operation::MultiplyAdd(a, b, c) => at(a).mul_add(at(b), at(c)),
                 Operation::Power(x, n) => at(x).powi(n),
                 Operation::Select(condition, a, b) => {

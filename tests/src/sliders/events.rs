@@ -107,8 +107,8 @@ impl<'a> Motion<'a> {
     fn force(&self, q: &Vector4<f64>, v: &Vector4<f64>, sliding: &Sliding) -> Vector4<f64> {
         let s = self.sliders;
         let mut force = Vector4::from(s.load) - matrix(&s.k) * q - matrix(&s.c) * v;
-        for k in 0..ELEMENTS {
-            force -= Vector4::from(s.b[k]) * (s.f[k] * f64::from(sliding[k]));
+        for (k, &way) in sliding.iter().enumerate() {
+            force -= Vector4::from(s.b[k]) * (s.f[k] * f64::from(way));
         }
         force
     }

@@ -1,6 +1,6 @@
 //! Studies by dalembert and by libraries of Python, each as its users would write it:
-//! `docs/evidence/escape-times.md`, of some twenty minutes, most of them heyoka's and the module's building, and
-//! `docs/evidence/friction-beside-scipy.md`.
+//! `docs/evidence/escape-times.md`, of some twenty minutes, most of them heyoka's and the module's building,
+//! and `docs/evidence/friction-beside-scipy.md`.
 
 use anyhow::{Context, Result};
 use xshell::cmd;

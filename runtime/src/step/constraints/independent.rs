@@ -27,8 +27,8 @@ const LITTLE: f64 = 0.01;
 
 /// M constraints of which some may be redundant, ready to solve S κ = b with: κ = Σₖ hₖ (eₖ·b) over those
 /// that are not, where yₖ = Σₗ eₖₗ Gₗ(q1), xₖ = dₖ Σₗ hₖₗ Gₗ(q0). Σₗ |Sₗₗ| κₗ² is least, and where b
-/// contradicts itself Σₗ (S κ − b)ₗ²/|Sₗₗ|: a constraint that is left out would have all of the contradiction,
-/// and be off by many roundings, or on another branch of the others.
+/// contradicts itself Σₗ (S κ − b)ₗ²/|Sₗₗ|: a constraint that is left out would have all of the
+/// contradiction, and be off by many roundings, or on another branch of the others.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::step) struct Independent<S: Scalar, const M: usize> {
     /// eₖ by columns, 0 of a redundant constraint.
