@@ -1,4 +1,5 @@
-//! The controllers against closed forms, and what the scenes `cart_pole`, `crane` and `arm` claim to hold.
+//! The controllers against closed forms, and what the scenes `cart_pole`, `crane`, `arm` and `drive` claim to
+//! hold.
 
 #[path = "../examples/arm.rs"]
 #[expect(dead_code, reason = "of the scene, what it computes is tested here, not what it prints")]
@@ -9,6 +10,9 @@ mod cart_pole;
 #[path = "../examples/crane.rs"]
 #[expect(dead_code, reason = "of the scene, what it computes is tested here, not what it prints")]
 mod crane;
+#[path = "../examples/drive.rs"]
+#[expect(dead_code, reason = "of the scene, what it computes is tested here, not what it prints")]
+mod drive;
 
 use crane::{CRANE, G, H, LIFT, Moment, ROPE, WAY};
 use dalembert::nalgebra::{SMatrix, matrix, vector};
@@ -180,4 +184,20 @@ fn the_crane_brings_its_load_to_rest() {
     };
     let hoist: f64 = seeing.windows(2).map(work).sum();
     assert!((hoist / end.account.remainder() - 1.0).abs() < 1e-3);
+}
+
+/// With the integral alone the load goes on from one side of the angle to the other; with a dead zone it
+/// stands in it to the last bit.
+#[test]
+fn a_dead_zone_ends_the_hunting() {
+    let [hunting, still] = [0.0, drive::DEAD_ZONE].map(|dead_zone| {
+        let moments = drive::motion(drive::Controller::with(dead_zone)).unwrap();
+        moments.into_iter().filter(|at| at.time > 5.0).collect::<Vec<_>>()
+    });
+    assert!(still.iter().all(|at| at.stands && (at.angles[1] - drive::WANTED).abs() < drive::DEAD_ZONE));
+    let sides = hunting.iter().map(|at| at.angles[1] > drive::WANTED).collect::<Vec<_>>();
+    let crossings = sides.windows(2).filter(|pair| pair[0] != pair[1]).count();
+    assert!((3..=5).contains(&crossings), "{crossings}");
+    // Between the jumps it stands.
+    assert!(hunting.iter().filter(|at| at.stands).count() > hunting.len() / 4);
 }

@@ -64,6 +64,12 @@ pub(crate) trait StepEquation<S: Scalar, const N: usize> {
         nalgebra::zero()
     }
 
+    /// Sizes of what may hold a coordinate beside p, v and forces: beside it their roundings are none.
+    fn holding(&self, segment: &Segment<S, N>) -> SVector<S, N> {
+        let _ = segment;
+        nalgebra::zero()
+    }
+
     /// The floor of a residual with what is added to that of the terms of p0.
     #[inline]
     fn floor(&self, floor: SVector<S, N>) -> SVector<S, N> {

@@ -34,6 +34,11 @@ pub trait Evaluate<S> {
     /// The sizes of terms that cancel in p0.
     fn cancelling(&self, q: &[S], v: &[S], h: S, terms: &mut [S]);
 
+    /// Adds what may hold a coordinate beside p, v and forces: beside it roundings are none.
+    fn add_holding(&self, q: &[S], v: &[S], h: S, terms: &mut [S]) {
+        let _ = (q, v, h, terms);
+    }
+
     /// Writes what constraints at (q, v, h) leave of a correction, and whether there are any: a matrix beside
     /// the present one.
     fn along_constraints(&mut self, q: &[S], v: &[S], h: S, correction: &[S], along: &mut [S]) -> bool {

@@ -10,7 +10,7 @@ use super::twice::{Twice, is_rounded_twice, move_alike};
 use super::vectors::{MEASURES_NOISE, Room, add, copy, subtract, sum};
 use crate::numbers::Precision;
 
-/// Adds the terms of the equation: |p| + |M||v|, with which the forces balance, and p0 at rest.
+/// Adds the terms of the equation: |p| + |M||v|, with which the forces balance, p0 at rest, and what holds.
 #[inline(never)]
 fn add_terms<S: Precision>(of: &Equations<'_, S>, v: &[S], terms: &mut [S], mut room: Room<'_, S>) {
     let (found, rest) = (room.vector(), room.zeros());
@@ -19,6 +19,7 @@ fn add_terms<S: Precision>(of: &Equations<'_, S>, v: &[S], terms: &mut [S], mut 
     add_finite_part(terms, S::one(), found);
     of.p0(of.q, rest, found, room);
     add_finite_part(terms, S::one(), found);
+    of.evaluate.add_holding(of.q, v, of.h, terms);
 }
 
 /// Adds the size of forces that cancel at rest: what rounding takes of them, over ε.

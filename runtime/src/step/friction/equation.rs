@@ -228,8 +228,12 @@ where
         self.on.set(Some(*segment));
         let held = held?;
         let impulse = sliding.impulse(&held.forces);
-        self.rounding.set(impulse.abs() * (L::Scalar::EPSILON * L::Scalar::constant(4.0)));
-        Some(left + impulse)
+        let rounding = impulse.abs() * (L::Scalar::EPSILON * L::Scalar::constant(4.0));
+        self.rounding.set(rounding);
+        // Where an element holds all that pushes, nothing else in the equation tells what counts as 0.
+        Some((left + impulse).zip_map(&rounding, |left, rounding| {
+            if left <= rounding && left >= -rounding { nalgebra::zero() } else { left }
+        }))
     }
 }
 
@@ -309,6 +313,13 @@ where
         let forces = forces.component_mul(&slips.limits) * segment.h;
         self.free.cancelling(segment)
             + slips.by_velocity.transpose().abs() * forces.abs() * L::Scalar::constant(2.0)
+    }
+
+    /// The impulses of friction at its limits.
+    fn holding(&self, segment: &Segment<L::Scalar, N>) -> SVector<L::Scalar, N> {
+        let slips = at_middle(self.system, segment);
+        let impulses = slips.limits * (segment.h * L::Scalar::constant(0.5));
+        slips.by_velocity.transpose().abs() * impulses.abs()
     }
 
     fn kind(&self) -> Equation {

@@ -145,6 +145,11 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Evaluate<S> for Evaluatio
         write(terms, &self.of.equation.cancelling(&Segment { q0: vector(q), v: vector(v), h }));
     }
 
+    fn add_holding(&self, q: &[S], v: &[S], h: S, terms: &mut [S]) {
+        let holding = self.of.equation.holding(&Segment { q0: vector(q), v: vector(v), h });
+        terms.iter_mut().zip(holding.as_slice()).for_each(|(term, holding)| *term += *holding);
+    }
+
     fn along_constraints(&mut self, q: &[S], v: &[S], h: S, correction: &[S], along: &mut [S]) -> bool {
         let segment = Segment { q0: vector(q), v: vector(v), h };
         let found = self.of.equation.along_constraints(&segment, &vector(correction));

@@ -49,3 +49,42 @@ fn a_factor_that_is_no_number_is_an_error() {
     assert!(Pushed { mu: f64::NAN }.by(Proximal, 0.1).step(&still).is_err());
     assert!(Pushed { mu: f64::INFINITY }.by(Proximal, 0.1).step(&still).is_err());
 }
+
+/// A motor with play in its gears, and a load on dry friction that falls with the speed by `fall`.
+struct Geared {
+    fall: f64,
+}
+
+const PLAY: f64 = 0.01;
+
+#[rayleigh_system(rule = proximal)]
+impl Geared {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let beyond = ((q[0] - q[1]).abs() - PLAY).max(0.0);
+        0.5 * (2e-4 * v[0] * v[0] + 2e-3 * v[1] * v[1]) - 30.0 * beyond * beyond - 0.06 * q[0]
+    }
+
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        let speed = v[1].abs();
+        0.006 * v[0].abs() + 0.02 * speed + 0.05 * self.fall * (1.0 - (-20.0 * speed).exp())
+    }
+}
+
+/// The teeth begin to press a load that holds: beside the little that they press by, roundings are large,
+/// beside what friction holds they are none.
+#[test]
+fn what_holds_may_be_touched() {
+    let mut draws = dalembert_tests::draws::Draws::new(7);
+    let mut held = 0;
+    for _ in 0..if cfg!(debug_assertions) { 300 } else { 3000 } {
+        let system = Geared { fall: [0.0, 0.01][draws.below(2)] };
+        let (speed, h) = (draws.between(-3.0, 0.0), draws.scale(1e-5, 1e-3));
+        // The end of the play lies within the step.
+        let gap = draws.between(0.0, 1.0) * h * speed.abs();
+        let state = State { q: vector![0.5 - PLAY + gap, 0.5], p: vector![2e-4 * speed, 0.0] };
+        let step =
+            system.by(Proximal, h).step(&state).unwrap_or_else(|error| panic!("{state:?}, h = {h}: {error}"));
+        held += usize::from(step.state.q[1] == 0.5 && step.state.p[1] == 0.0);
+    }
+    assert!(held > 100, "{held}");
+}
