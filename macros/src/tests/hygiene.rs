@@ -90,7 +90,7 @@ fn every_name_that_generated_code_brings_along_is_listed() {
     names(rayleigh_system(Runtime::STD, joint, linear.clone()), false, &mut found);
     let kinked = quote! {
         impl System {
-            fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 { 0.5 * v[0] * v[0] - q[0] }
+            fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 { 0.5 * v[0] * v[0] - self.cam.at(q[0]) }
             fn rayleigh(&self, v: [f64; 1]) -> f64 { v[0].abs() }
         }
     };

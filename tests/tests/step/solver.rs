@@ -608,3 +608,34 @@ fn reports_state_the_residual_of_the_solution() {
         state = step.state;
     }
 }
+
+/// A force that jumps at q = 0.
+#[rayleigh_system]
+fn dented(q: [f64; 1], v: [f64; 1]) -> f64 {
+    0.5 * v[0] * v[0] - q[0].abs() - 0.5 * q[0].cos()
+}
+
+/// p0 = v̄ + (h/2)(sgn q̄ − ½ sin q̄) has no root where p0 lies within the jump, which is no noise.
+#[test]
+fn a_jump_of_the_force_is_not_taken_for_rounding() {
+    let (q, h) = (-0.05, 0.1);
+    let mut solved = [0; 2];
+    for k in 0..200 {
+        let p = 0.9 + 0.001 * (f64::from(k) + 0.5);
+        let step = Dented {}.by(Midpoint, h).step(&State { q: vector![q], p: vector![p] });
+        let is_within = (p - 1.0).abs() < 0.05;
+        match step {
+            Ok(step) => {
+                let v = step.velocity[0];
+                let middle = q + 0.5 * h * v;
+                let left = v + 0.5 * h * (middle.signum() - 0.5 * middle.sin()) - p;
+                assert!(left.abs() < 1e-15 && !is_within, "p = {p}: {left:e}");
+                solved[usize::from(p > 1.0)] += 1;
+            }
+            Err(error) => {
+                assert!(matches!(error, StepError::NoRealSolution { .. }) && is_within, "p = {p}: {error}")
+            }
+        }
+    }
+    assert_eq!(solved, [50, 50]);
+}

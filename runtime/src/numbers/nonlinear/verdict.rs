@@ -190,7 +190,12 @@ fn is_explained<S: Precision>(
         *least = *remaining * (S::one() / S::nearest(AT_FLOOR));
     }
     let may_be_places = is_sensible_at_rest(of, found, terms, room.inner());
-    if MEASURES_NOISE && is_noise(of, v, remaining, floor, room.inner()) {
+    // More than half of the digits are no noise but a jump: so far around it a smooth function scatters, too.
+    let may_be_noise = may_be_places && {
+        add_forces_at_rest(of, terms, room.inner());
+        remaining.iter().zip(terms.iter()).all(|(left, term)| *left * *left <= *term * *term * S::SPACING)
+    };
+    if MEASURES_NOISE && may_be_noise && is_noise(of, v, remaining, floor, room.inner()) {
         return true;
     }
     if !may_be_places {
