@@ -368,7 +368,7 @@ mod tests {
     fn there_is_room_for_the_deepest_calls() {
         let is_enough = |vectors: usize, from_rest: usize, held: [f64; 2]| {
             std::panic::catch_unwind(|| {
-                let mut evaluate = One { off: 1.0, matrix: 1.0 };
+                let mut evaluate = One { off: 1e-9, matrix: 1.0 };
                 let mut of =
                     Equations { evaluate: &mut evaluate, q: &[1.0; 2], p: &[1.0; 2], h: 1.0, held: &held };
                 let counts = Counts { iterations: 1, damped: 0, last_correction: 1e-14 };
