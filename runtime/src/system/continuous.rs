@@ -127,17 +127,17 @@ pub trait Lagrangian<const N: usize> {
     /// use dalembert::{Lagrangian, nalgebra::vector, rayleigh_system};
     ///
     /// #[rayleigh_system(rule = midpoint)]
-    /// fn block(q: [f64; 1], v: [f64; 1], c: f64) -> (f64, f64) {
-    ///     (0.5 * v[0] * v[0] - q[0], c * (v[0] * v[0]).sqrt())
+    /// fn wedge(q: [f64; 1], v: [f64; 1], g: f64) -> f64 {
+    ///     0.5 * v[0] * v[0] - g * (q[0] * q[0]).sqrt()
     /// }
     ///
-    /// let found = Block { c: 0.1 }.without_derivative(&vector![1.0], &vector![0.0]);
+    /// let found = Wedge { g: 9.81 }.without_derivative(&vector![0.0], &vector![1.0]);
     /// assert_eq!(
     ///     found.unwrap().to_string(),
-    ///     "the derivative of R by coordinate 0 is NaN or infinite: √s has none at s = 0, \
-    ///      in `(v[0] * v[0]).sqrt()`; write √(s + ε²)"
+    ///     "the derivative of L by coordinate 0 is NaN or infinite: √s has none at s = 0, \
+    ///      in `(q[0] * q[0]).sqrt()`; write √(s + ε²)"
     /// );
-    /// assert_eq!(Block { c: 0.1 }.without_derivative(&vector![1.0], &vector![1e-3]), None);
+    /// assert_eq!(Wedge { g: 9.81 }.without_derivative(&vector![1e-3], &vector![1.0]), None);
     /// ```
     #[cold]
     fn without_derivative(
