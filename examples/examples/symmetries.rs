@@ -171,7 +171,7 @@ fn curve<L: Discrete<Midpoint, 2, Scalar = f64>>(
 
 fn draw(curves: &[Curve<'static>]) -> Result<PathBuf> {
     let panel = Panel::new(
-        "Radial friction keeps the angular momentum, other friction takes it",
+        "Angular momentum is kept only where the discrete friction is radial",
         linear("time t (dimensionless)"),
         // Exact zeros stand at the floor.
         logarithmic("|J(t) − J(0)| (dimensionless)").with_floor(1e-18),
