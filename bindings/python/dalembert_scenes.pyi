@@ -540,8 +540,8 @@ class SphericalPendulum(System):
     def c(self, value: float) -> None: ...
 
 class Blocks(System):
-    """Three blocks in a row between two walls, joined by springs, on a floor with dry and viscous friction; q are their
-    displacements in m."""
+    """Three blocks in a row between two walls, joined by springs, on a floor with dry and viscous friction;
+    q are their displacements in m."""
 
     def __new__(cls, m: _Numbers, k: _Numbers, mu: _Numbers, c: float) -> Self: ...
     @property

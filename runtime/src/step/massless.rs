@@ -142,8 +142,8 @@ pub(crate) fn inertia<L: Lagrangian<N> + ?Sized, const N: usize>(
 
 /// Whether L does not hold the velocity of this coordinate, as far as these derivatives tell.
 fn is_absent<S: Scalar, const N: usize>(l: &Derivatives<S, N>, of: usize) -> bool {
-    let is_zero = |entry: &S| *entry == S::zero();
-    l.d2.iter().skip(of).take(1).all(is_zero)
-        && l.d22.column(of).iter().all(is_zero)
-        && l.d12.column(of).iter().all(is_zero)
+    let is_zero = |column: &[S; N]| column.iter().all(|entry| *entry == S::zero());
+    l.d2.iter().skip(of).take(1).all(|entry| *entry == S::zero())
+        && l.d22.data.0.get(of).is_some_and(is_zero)
+        && l.d12.data.0.get(of).is_some_and(is_zero)
 }
