@@ -33,8 +33,8 @@ const CEILINGS: [Ceiling; 3] = [
             0.5 * self.drag * (v[0] * v[0] + (v[1] - v[0]).powi(2))
         }",
         is_in_lanes: false,
-        one: [2300, 4250],
-        more: [5595, 11700],
+        one: [2910, 5555],
+        more: [6450, 13715],
     },
     Ceiling {
         name: "spring in space",
@@ -47,8 +47,8 @@ const CEILINGS: [Ceiling; 3] = [
             self.drag * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
         }",
         is_in_lanes: false,
-        one: [2745, 5165],
-        more: [6210, 13160],
+        one: [3305, 6375],
+        more: [6900, 14875],
     },
     Ceiling {
         name: "seven links",
@@ -70,8 +70,8 @@ const CEILINGS: [Ceiling; 3] = [
             0.5 * self.drag * sum
         }",
         is_in_lanes: true,
-        one: [5590, 13330],
-        more: [6600, 17440],
+        one: [6435, 15140],
+        more: [7610, 19615],
     },
 ];
 
