@@ -76,7 +76,6 @@ impl<const N: usize> Massless<N> {
 
     /// The equations for the velocity, where L and the force have these derivatives; those of coordinates
     /// without mass times `scale`.
-    #[inline]
     pub(crate) fn balance<S: Scalar>(
         &self,
         l: &Derivatives<S, N>,
@@ -99,6 +98,8 @@ impl<const N: usize> Massless<N> {
     }
 
     /// [`balance`](Self::balance) at (q, v), where the system is told which force acts.
+    #[cold]
+    #[inline(never)]
     pub(crate) fn balance_at<L: Lagrangian<N> + ?Sized>(
         &self,
         system: &L,
@@ -112,6 +113,8 @@ impl<const N: usize> Massless<N> {
 
     /// Fails where momenta and friction do not determine the velocity at (q, v). Where the system is not told
     /// which force acts, its view will say.
+    #[cold]
+    #[inline(never)]
     pub(crate) fn require_determined<L: Lagrangian<N> + ?Sized>(
         &self,
         system: &L,
@@ -127,6 +130,8 @@ impl<const N: usize> Massless<N> {
 
 /// ∂²L/∂v² at (q, v), with ½h times the friction in its place in coordinates without mass: what the Newton
 /// matrix ∂p0/∂v̄ is for small h.
+#[cold]
+#[inline(never)]
 pub(crate) fn inertia<L: Lagrangian<N> + ?Sized, const N: usize>(
     system: &L,
     q: &SVector<L::Scalar, N>,

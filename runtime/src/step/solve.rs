@@ -28,7 +28,7 @@ where
     require_step_size(h)?;
     let start = match guess {
         Some(v) => *v,
-        None => first_guess(system, equation, state)?,
+        None => first_guess(system, equation.kind(), equation.takes_massless(), state)?,
     };
     let solution = match newton::quick(equation, state, h, start) {
         Ok(solution) => solution,
@@ -60,7 +60,7 @@ pub(crate) fn step_at_length_by<L, const N: usize>(
 where
     L: Lagrangian<N> + ?Sized,
 {
-    let start = first_guess(system, equation, state)?;
+    let start = first_guess(system, equation.kind(), equation.takes_massless(), state)?;
     let way = Way::Every { iterations: 0, start: start.as_slice() };
     let solution = solved_at_length(system, equation, (state, h, None), way, &start)?;
     completed(equation, (state, h, None), &solution)
@@ -108,21 +108,22 @@ fn completed<S: Scalar, const N: usize>(
 #[inline(never)]
 fn first_guess<L: Lagrangian<N> + ?Sized, const N: usize>(
     system: &L,
-    equation: &impl StepEquation<L::Scalar, N>,
+    kind: Equation,
+    takes_massless: bool,
     state: &State<L::Scalar, N>,
 ) -> Result<SVector<L::Scalar, N>, StepError> {
     let rest = nalgebra::zero();
-    if equation.kind() == Equation::Linear {
+    if kind == Equation::Linear {
         state.require_finite()?;
         return require_regular(&derivatives_apart(system, &state.q, &rest).d22)
-            .or_else(|error| match equation.takes_massless() {
+            .or_else(|error| match takes_massless {
                 true => Massless::of(system, &state.q).require_determined(system, &state.q, &rest),
                 false => Err(error),
             })
             .map(|()| rest)
             .map_err(|error| explained_by_lagrangian(system, &state.q, &rest, error));
     }
-    match state.velocity_by(system, equation.takes_massless()) {
+    match state.velocity_by(system, takes_massless) {
         Ok(v) if StepError::require_finite(&v, Quantity::Velocity).is_ok() => Ok(v),
         Err(
             error @ (StepError::DegenerateLagrangian { .. }
@@ -150,7 +151,7 @@ where
     state.require_finite()?;
     let guess = match guess {
         Some(v) => *v,
-        None => first_guess(system, equation, state)?,
+        None => first_guess(system, equation.kind(), equation.takes_massless(), state)?,
     };
     StepError::require_finite(&guess, Quantity::Velocity)?;
     let (solution, converged) = newton::bounded(equation, iterations, state, h, guess)?;

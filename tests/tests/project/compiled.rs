@@ -33,8 +33,8 @@ const CEILINGS: [Ceiling; 3] = [
             0.5 * self.drag * (v[0] * v[0] + (v[1] - v[0]).powi(2))
         }",
         is_in_lanes: false,
-        one: [2910, 5555],
-        more: [6450, 13715],
+        one: [2840, 5420],
+        more: [6420, 13650],
     },
     Ceiling {
         name: "spring in space",
@@ -47,8 +47,8 @@ const CEILINGS: [Ceiling; 3] = [
             self.drag * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
         }",
         is_in_lanes: false,
-        one: [3305, 6375],
-        more: [6900, 14875],
+        one: [3240, 6250],
+        more: [6855, 14780],
     },
     Ceiling {
         name: "seven links",
@@ -70,8 +70,8 @@ const CEILINGS: [Ceiling; 3] = [
             0.5 * self.drag * sum
         }",
         is_in_lanes: true,
-        one: [6435, 15140],
-        more: [7610, 19615],
+        one: [6390, 15065],
+        more: [7600, 19595],
     },
 ];
 
