@@ -57,10 +57,10 @@ use crate::system::{Driven, SmoothRayleigh};
 /// rest p1 is 0.
 ///
 /// **While it slides** by constant directions both lines have the same force, and the step is that of the
-/// midpoint rule with R_d = (h²/2) R, of order 2. Where it stops within a step, or a length turns, the step
-/// is of order 1: its error is half that of a rule with all of the friction at one end. Across such a step
-/// there is no R_d in general for two coordinates or more: checkers but for `dissipation` and `ledger` refuse
-/// kinks.
+/// midpoint rule with R_d = (h²/2) R, of order 2; in a run, where every |u| keeps its sign, it is solved as
+/// one, at about its cost. Where it stops within a step, or a length turns, the step is of order 1: its
+/// error is half that of a rule with all of the friction at one end. Across such a step there is no R_d in
+/// general for two coordinates or more: checkers but for `dissipation` and `ledger` refuse kinks.
 ///
 /// L_d and f_d, where they are asked for, are without the kinks: these hold the motion beside f_d, as
 /// reactions of constraints do. Limits and slips are those at q̄ in both lines, so that F(q) does not take

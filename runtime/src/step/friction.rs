@@ -22,6 +22,7 @@ mod equation;
 mod linearized;
 mod set;
 mod slipping;
+mod unturned;
 
 use nalgebra::{SMatrix, SVector};
 
@@ -39,6 +40,22 @@ pub(crate) use slipping::{Slip, Slipping};
 /// Kinks of R with M components in all, [`DryFriction`]: the border of a step with friction that holds.
 #[derive(Clone, Copy, Debug)]
 pub struct Friction<const M: usize>;
+
+/// The step by the sets of what sticks and what slides.
+#[inline(never)]
+fn by_sets<L, R, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    h: L::Scalar,
+    guess: Option<&SVector<L::Scalar, N>>,
+) -> Result<Step<L::Scalar, N>, StepError>
+where
+    L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M>,
+{
+    let equation = WithFriction::<L, R, N, M>::new(system, state);
+    let step = step_by(system, &equation, state, h, guess).map_err(|error| equation.explained(error))?;
+    held::<L, R, N, M>(system, state, step, h, &equation)
+}
 
 /// The step that was solved for up to the momentum at its end.
 fn held<L, R, const N: usize, const M: usize>(
@@ -91,15 +108,17 @@ where
     type Linearized = LinearizedFriction<L::Scalar, N, M>;
     type Underway = ();
 
+    #[inline]
     fn step(
         system: &L,
         state: &State<L::Scalar, N>,
         h: L::Scalar,
         guess: Option<&SVector<L::Scalar, N>>,
     ) -> Result<Step<L::Scalar, N>, StepError> {
-        let equation = WithFriction::<L, R, N, M>::new(system, state);
-        let step = step_by(system, &equation, state, h, guess).map_err(|error| equation.explained(error))?;
-        held::<L, R, N, M>(system, state, step, h, &equation)
+        match guess.and_then(|guess| unturned::step::<L, R, N, M>(system, state, h, guess)) {
+            Some(step) => Ok(step),
+            None => by_sets::<L, R, N, M>(system, state, h, guess),
+        }
     }
 
     fn step_within(

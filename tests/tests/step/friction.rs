@@ -3,6 +3,7 @@
 mod derivatives;
 mod many;
 mod sliders;
+mod unturned;
 mod verdicts;
 
 use dalembert::nalgebra::{Vector2, vector};

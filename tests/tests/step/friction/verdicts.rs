@@ -41,6 +41,11 @@ fn friction_has_no_step_back_in_time() {
     let error = by.step(&still).unwrap_err();
     assert!(matches!(error, StepError::NotConvex { h: -0.1, enough: 0.05, .. }), "{error}");
     assert!(by.with_step(0.05).step(&still).is_ok());
+    // From a guess too, with every element sliding.
+    let sliding = State { q: vector![0.0, 0.0], p: vector![3.0, 4.0] };
+    let error = by.near(&vector![3.0, 4.0]).step(&sliding).unwrap_err();
+    assert!(matches!(error, StepError::NotConvex { .. }), "{error}");
+    assert!(by.with_step(0.05).near(&vector![3.0, 4.0]).step(&sliding).is_ok());
 }
 
 #[test]
