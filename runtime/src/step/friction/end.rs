@@ -61,7 +61,7 @@ where
             break;
         };
         let slips = at_middle.slips(middle, &v);
-        let sliding = Sliding::of(&slips, (S::zero(), h), &factored)?;
+        let sliding = Sliding::of(&slips, &v, (S::zero(), h), &factored)?;
         left = balance.value - w;
         let Some(held) = sliding.held(L::ELEMENTS, &factored, &left, &forces) else { break };
         forces = held.forces;

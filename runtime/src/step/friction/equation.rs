@@ -22,6 +22,8 @@ const SHARES: [f64; 6] = [0.0, 0.0625, 0.125, 0.25, 0.5, 0.75];
 pub(super) struct Sliding<S, const N: usize, const M: usize> {
     /// u.
     values: SVector<S, M>,
+    /// Sizes of its terms.
+    terms: SVector<S, M>,
     /// ∂u/∂v̄ at fixed q0.
     rows: SMatrix<S, M, N>,
     /// (h/2) Fₖ ∂uₖ/∂v, column by column: what s adds to p0.
@@ -31,12 +33,13 @@ pub(super) struct Sliding<S, const N: usize, const M: usize> {
 }
 
 impl<S: Scalar, const N: usize, const M: usize> Sliding<S, N, M> {
-    /// Of these slips over a step of size `h`, where q is q0 + `share` v̄, with W `factored`.
+    /// Of these slips at `v` over a step of size `h`, where q is q0 + `share` v̄, with W `factored`.
     ///
     /// # Errors
     /// [`StepError::NegativeFriction`], [`StepError::NotConvex`].
     pub(super) fn of(
         slips: &Slips<S, N, M>,
+        v: &SVector<S, N>,
         (share, h): (S, S),
         factored: &impl Factored<S, N>,
     ) -> Result<Self, StepError> {
@@ -47,7 +50,8 @@ impl<S: Scalar, const N: usize, const M: usize> Sliding<S, N, M> {
         if let Some(component) = own.position(|entry| entry.is_some_and(|entry| *entry < S::zero())) {
             return Err(StepError::NotConvex { component, h: h.widen(), enough: 0.0 });
         }
-        Ok(Self { values: slips.values, rows, directions, response })
+        let terms = slips.values.abs() + slips.by_velocity.abs() * v.abs();
+        Ok(Self { values: slips.values, terms, rows, directions, response })
     }
 
     /// s, and what sticks, of what is `left` of the equation without friction.
@@ -58,8 +62,10 @@ impl<S: Scalar, const N: usize, const M: usize> Sliding<S, N, M> {
         left: &SVector<S, N>,
         start: &SVector<S, M>,
     ) -> Option<Held<S, M>> {
-        let free = self.values - self.rows * factored.solve(left);
-        let elements = Elements { sizes, response: self.response, free };
+        let correction = factored.solve(left);
+        let free = self.values - self.rows * correction;
+        let terms = self.terms + self.rows.abs() * correction.abs();
+        let elements = Elements { sizes, response: self.response, free, terms };
         let mut held = elements.held(start)?;
         if M > 1 && held.sticks.contains(&true) {
             let remains = left + self.impulse(&held.forces);
@@ -171,7 +177,9 @@ where
             let segment = Segment { v: segment.v * L::Scalar::constant(share), ..*segment };
             let half = segment.h * L::Scalar::constant(0.5);
             let Some(factored) = self.free.kernel(&segment).matrix.factored() else { continue };
-            if let Err(error) = Sliding::of(&at_middle(self.system, &segment), (half, segment.h), &factored) {
+            if let Err(error) =
+                Sliding::of(&at_middle(self.system, &segment), &segment.v, (half, segment.h), &factored)
+            {
                 self.error.set(Some(error));
                 self.at.set(segment.v);
                 return Err(self.explained(error));
@@ -194,7 +202,9 @@ where
             let half = segment.h * L::Scalar::constant(0.5);
             let factored = self.free.kernel(&segment).matrix.factored();
             let slips = at_middle(self.system, &segment);
-            if factored.is_some_and(|factored| Sliding::of(&slips, (half, segment.h), &factored).is_ok()) {
+            if factored
+                .is_some_and(|factored| Sliding::of(&slips, &segment.v, (half, segment.h), &factored).is_ok())
+            {
                 break;
             }
         }
@@ -210,7 +220,7 @@ where
     ) -> Option<SVector<L::Scalar, N>> {
         let half = segment.h * L::Scalar::constant(0.5);
         let slips = at_middle(self.system, segment);
-        let sliding = match Sliding::of(&slips, (half, segment.h), factored) {
+        let sliding = match Sliding::of(&slips, &segment.v, (half, segment.h), factored) {
             Ok(sliding) => sliding,
             Err(error) => {
                 // The first is that of the step size asked for.

@@ -30,6 +30,12 @@ const OF_LENGTHS: u32 = 16;
 /// Iterations for the one unknown λ of a ball.
 const OF_BALL: u32 = 32;
 
+/// The least part of ρ that is left from one problem to the next.
+const CONTINUATION: f64 = 0.25;
+
+/// The most problems on the way to ρ = 0.
+const PROBLEMS: u32 = 256;
+
 /// Roundings of the terms of u below which it is 0.
 const ROUNDINGS: f64 = 16.0;
 
@@ -44,6 +50,8 @@ pub(super) struct Elements<'p, S, const M: usize> {
     pub(super) response: SMatrix<S, M, M>,
     /// d, the slip without friction.
     pub(super) free: SVector<S, M>,
+    /// Sizes of the terms of d.
+    pub(super) terms: SVector<S, M>,
 }
 
 /// The solution.
@@ -83,7 +91,30 @@ impl<S: Scalar, const M: usize> Elements<'_, S, M> {
                 return Some(held);
             }
         }
-        None
+        self.by_continuation()
+    }
+
+    /// From elements that give way to each force by itself, ρ s beside A s, to none that do: at first each
+    /// stands alone, and the forces change little from ρ to ρ. Where they change too much, ρ falls by less.
+    fn by_continuation(&self) -> Option<Held<S, M>> {
+        let most = self.diagonal().amax();
+        let (mut forces, mut rho, mut factor) = (nalgebra::zero(), most, S::constant(CONTINUATION));
+        for _ in 0..PROBLEMS {
+            if rho <= most * S::EPSILON {
+                break;
+            }
+            let next = rho * factor;
+            let near = Elements { response: with_diagonal(&self.response, |_| next), ..*self };
+            let by_lengths = || near.corrected(near.by_lengths(&forces)?);
+            match near.corrected(forces).or_else(by_lengths) {
+                Some(held) => {
+                    (forces, rho) = (held.forces, next);
+                    factor = at_least(factor * factor, S::constant(CONTINUATION));
+                }
+                None => factor = factor.sqrt(),
+            }
+        }
+        self.corrected(forces)
     }
 
     /// A correction of the forces that hold, which takes away `slip` from what sticks. Of what their impulses
@@ -132,7 +163,7 @@ impl<S: Scalar, const M: usize> Elements<'_, S, M> {
 
     /// Sizes of the terms of u.
     fn terms(&self, forces: &SVector<S, M>) -> SVector<S, M> {
-        let mut terms = self.free.abs();
+        let mut terms = self.terms;
         for (column, force) in self.response.data.0.iter().zip(forces.as_slice()) {
             for (term, entry) in terms.as_mut_slice().iter_mut().zip(column) {
                 *term += (*entry * *force).abs();
@@ -224,13 +255,22 @@ impl<S: Scalar, const M: usize> Elements<'_, S, M> {
     fn corrected(&self, mut forces: SVector<S, M>) -> Option<Held<S, M>> {
         let mut sticks = [false; M];
         let inside = S::one() - S::EPSILON * S::constant(ROUNDINGS);
+        let mut share = S::EPSILON * S::constant(SHARE);
         for element in self.elements() {
             let is_inside = element.dot(&forces, &forces) < inside;
             element.of_mut(&mut sticks).for_each(|stick| *stick = is_inside);
         }
         for iteration in 0..CORRECTIONS {
-            let (matrix, residual) = self.linearized(&mut forces, &sticks);
-            forces += NewtonMatrix::factored(&matrix)?.solve(&residual);
+            let (matrix, residual) = self.linearized(&mut forces, &sticks, share);
+            let Some(factored) = NewtonMatrix::factored(&matrix) else {
+                // What is left is corrected again: a larger share makes that slower, and no root another.
+                share *= S::constant(SHARE);
+                if share * share > S::EPSILON {
+                    return None;
+                }
+                continue;
+            };
+            forces += factored.solve(&residual);
             let slides = |element: &Element, sticks: &[bool; M]| element.head(sticks) == Some(false);
             for element in self.elements().filter(|element| slides(element, &sticks)) {
                 let length = element.length(&forces);
@@ -256,6 +296,10 @@ impl<S: Scalar, const M: usize> Elements<'_, S, M> {
                     break;
                 }
             }
+            // At their limits they may hold as well.
+            if let Some(held) = self.verified(&forces) {
+                return Some(held);
+            }
         }
         None
     }
@@ -267,6 +311,7 @@ impl<S: Scalar, const M: usize> Elements<'_, S, M> {
         &self,
         forces: &mut SVector<S, M>,
         sticks: &[bool; M],
+        share: S,
     ) -> (SMatrix<S, M, M>, SVector<S, M>) {
         let slip = self.slip(forces);
         // Row by row.
@@ -282,7 +327,7 @@ impl<S: Scalar, const M: usize> Elements<'_, S, M> {
                 for (k, ((row, response), residual)) in of_rows {
                     *row = *response;
                     if let Some(own) = row.get_mut(element.first + k) {
-                        *own += *own * (S::EPSILON * S::constant(SHARE));
+                        *own += *own * share;
                     }
                     *residual = slip.get(element.first + k).copied().unwrap_or(S::zero());
                 }
