@@ -1,4 +1,4 @@
-//! A guide for users, in eight chapters; every code block is a test.
+//! A guide for users, in nine chapters; every code block is a test.
 //!
 //! Read the first two chapters in order; the others stand alone.
 //!
@@ -15,6 +15,9 @@ pub mod rule_and_step {}
 
 #[doc = include_str!("guide/control.md")]
 pub mod control {}
+
+#[doc = include_str!("guide/control_loop.md")]
+pub mod control_loop {}
 
 #[doc = include_str!("guide/checkers.md")]
 pub mod checkers {}
