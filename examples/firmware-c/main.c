@@ -20,7 +20,7 @@ static cart_pole_memory model, plant;
 static void require(dalembert_status status)
 {
     if (status != DALEMBERT_OK) {
-        board_write(cart_pole_text((int32_t)status));
+        board_write(cart_pole_text(status));
         board_exit(1);
     }
 }
@@ -110,7 +110,7 @@ int main(void)
         if (status == DALEMBERT_OK)
             require(cart_pole_state(&model, q, p));
         else
-            board_write(cart_pole_text((int32_t)status)); /* go on with what was measured */
+            board_write(cart_pole_text(status)); /* go on with what was measured */
 
         next = -(gain[0] * q[0] + gain[1] * q[1] + gain[2] * p[0] + gain[3] * p[1]);
         next = next > LARGEST ? LARGEST : next < -LARGEST ? -LARGEST : next;

@@ -225,7 +225,7 @@ impl Header {
         head(f, "Goes on from the present state with another step size.")?;
         writeln!(f, "dalembert_status {prefix}_set_step_size({prefix}_memory *memory, {scalar} h);\n")?;
         head(f, "What a status says: what happened and what to do.")?;
-        writeln!(f, "const char *{prefix}_text(int32_t status);\n")?;
+        writeln!(f, "const char *{prefix}_text(dalembert_status status);\n")?;
         self.functions_on_constraints(f)
     }
 }

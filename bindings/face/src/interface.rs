@@ -10,6 +10,7 @@ use dalembert::{State, StepError};
 
 use crate::columns::{ByInput, ByParameters, Column};
 use crate::constraints::{Holding, Multipliers, Reacting, StepMade};
+use crate::mass::require_no_negative;
 use crate::{FieldType, Fields};
 
 /// The type of u: numbers, or `()` where a system takes none.
@@ -163,7 +164,8 @@ pub const fn coordinates<S: Described<N>, const N: usize>(_: PhantomData<fn() ->
 /// A run of `system` from (q, v), with step size `h`.
 ///
 /// # Errors
-/// [`StepError`]s of the start.
+/// [`StepError`]s of the start; [`StepError::MassNotPositiveDefinite`] where some velocity has a kinetic energy
+/// below 0.
 pub fn start<I: Interface<N>, const N: usize>(
     system: &I::System,
     (u, t): (I::Input, I::Scalar),
@@ -171,6 +173,8 @@ pub fn start<I: Interface<N>, const N: usize>(
     [q, v]: [[I::Scalar; N]; 2],
 ) -> Result<DrivenTrajectory<I::Kind, I::Rule, N>, StepError> {
     require_step_size(h)?;
-    let start = State::from_velocity(&I::view(system, u, t), SVector::from(q), SVector::from(v))?;
+    let (view, q, v) = (I::view(system, u, t), SVector::from(q), SVector::from(v));
+    let start = State::from_velocity(&view, q, v)?;
+    require_no_negative(&view, &q, &v)?;
     Ok(DrivenTrajectory::new(h, start))
 }

@@ -14,6 +14,7 @@ mod constraints;
 mod fields;
 mod interface;
 mod layout;
+mod mass;
 mod number;
 
 pub use columns::{ByInput, ByParameters, Column, by_state};

@@ -147,7 +147,7 @@ dalembert_status cart_pole_set_parameters(cart_pole_memory *memory, const cart_p
 dalembert_status cart_pole_set_step_size(cart_pole_memory *memory, double h);
 
 /** What a status says: what happened and what to do. */
-const char *cart_pole_text(int32_t status);
+const char *cart_pole_text(dalembert_status status);
 
 #ifdef __cplusplus
 }

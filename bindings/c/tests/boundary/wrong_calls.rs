@@ -26,7 +26,9 @@ fn under_way() -> Memory {
 
 #[test]
 fn init_refuses_what_is_wrong_and_leaves_the_memory_as_it_was() {
-    use Status::{Misaligned, NotFinite, NullPointer, ParameterNan, StepSize, WrongMemory};
+    use Status::{
+        MassNotPositiveDefinite, Misaligned, NotFinite, NullPointer, ParameterNan, StepSize, WrongMemory,
+    };
     let (size, layout) = (size_of::<Memory>(), cart_pole::HEADER.layout);
     let (q, v, h) = ([0.0, 0.2], [0.1, 0.0], 0.01);
     let nan = CartPole { friction: [0.3, f64::NAN], ..PARAMETERS };
@@ -50,6 +52,7 @@ fn init_refuses_what_is_wrong_and_leaves_the_memory_as_it_was() {
             (call(size, layout, &PARAMETERS, h, vector, &v), Misaligned),
             (call(size, layout, &PARAMETERS, h, &q, vector), Misaligned),
             (call(size, layout, &nan, h, &q, &v), ParameterNan),
+            (call(size, layout, &CartPole { cart: -1.0, ..PARAMETERS }, h, &q, &v), MassNotPositiveDefinite),
             (call(size, layout, &PARAMETERS, 0.0, &q, &v), StepSize),
             (call(size, layout, &PARAMETERS, f64::NAN, &q, &v), StepSize),
             (call(size, layout, &PARAMETERS, f64::INFINITY, &q, &v), StepSize),

@@ -13,7 +13,7 @@
 static void require(dalembert_status status)
 {
     if (status != DALEMBERT_OK) {
-        fprintf(stderr, "%s\n", cart_pole_text((int32_t)status));
+        fprintf(stderr, "%s\n", cart_pole_text(status));
         exit(EXIT_FAILURE);
     }
 }

@@ -13,7 +13,7 @@ static int failures = 0;
 static void expect(dalembert_status found, dalembert_status expected, int line)
 {
     if (found != expected) {
-        printf("line %d: \"%s\", expected \"%s\"\n", line, cart_pole_text((int32_t)found), cart_pole_text((int32_t)expected));
+        printf("line %d: \"%s\", expected \"%s\"\n", line, cart_pole_text(found), cart_pole_text(expected));
         failures++;
     }
 }
