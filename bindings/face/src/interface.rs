@@ -164,8 +164,8 @@ pub const fn coordinates<S: Described<N>, const N: usize>(_: PhantomData<fn() ->
 /// A run of `system` from (q, v), with step size `h`.
 ///
 /// # Errors
-/// [`StepError`]s of the start; [`StepError::MassNotPositiveDefinite`] where some velocity has a kinetic energy
-/// below 0.
+/// [`StepError`]s of the start; [`StepError::MassNotPositiveDefinite`] where some velocity has a kinetic
+/// energy below 0.
 pub fn start<I: Interface<N>, const N: usize>(
     system: &I::System,
     (u, t): (I::Input, I::Scalar),
