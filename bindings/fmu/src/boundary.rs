@@ -182,7 +182,7 @@ unsafe fn with(instance: *mut Instance, call: impl FnOnce(&mut Instance) -> Resu
         Ok(Err(refusal)) => {
             // FMI 2.0 calls a communication step that was not carried out at all an error.
             let is_two = matches!(instance.log.call, Some(Call::Two(..)));
-            let discards = matches!(refusal, Refusal::NotAMultiple { .. }) && !is_two;
+            let discards = matches!(refusal, Refusal::CommunicationStep(_)) && !is_two;
             (if discards { Status::Discard } else { Status::Error }, refusal.to_string())
         }
         Err(panic) => {

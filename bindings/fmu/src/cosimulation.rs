@@ -19,7 +19,7 @@ use crate::variables::{self, Place, Role, Variable, number, type_name};
 
 /// How far the importer's clock may be from the unit's, in steps: what sums of communication steps round to.
 const DRIFT: f64 = 1e-3;
-/// How far a communication step may be from a multiple of h, in steps.
+/// The part of a step below which what is left of a communication step is rounding.
 const ROUNDING: f64 = 1e-6;
 
 type Run<I, const N: usize> = DrivenTrajectory<<I as Interface<N>>::Kind, <I as Interface<N>>::Rule, N>;
@@ -51,7 +51,31 @@ struct Communication<I: Interface<N>, const N: usize> {
     before: Run<I, N>,
     system: I::System,
     input: Vec<I::Scalar>,
-    steps: u64,
+    lengths: Lengths<I::Scalar>,
+}
+
+/// The steps of a communication step: so many of h, and a shorter one with what is left.
+#[derive(Clone, Copy)]
+struct Lengths<S> {
+    h: S,
+    whole: u64,
+    rest: Option<S>,
+}
+
+impl<S: Scalar> Lengths<S> {
+    /// Of a communication step of this size; nothing where it is none.
+    fn of(size: f64, h: S) -> Option<Self> {
+        let steps = size / h.widen();
+        let whole = (steps + ROUNDING).floor();
+        let rest = (steps - whole > ROUNDING).then(|| S::constant(size - whole * h.widen()));
+        let is_some = steps > ROUNDING && whole <= f64::from(u32::MAX);
+        is_some.then_some(Self { h, whole: whole as u64, rest })
+    }
+
+    /// Each of them.
+    fn each(self) -> impl Iterator<Item = S> {
+        (0..self.whole).map(move |_| self.h).chain(self.rest)
+    }
 }
 
 impl<I: Interface<N>, const N: usize> Clone for Communication<I, N> {
@@ -60,7 +84,7 @@ impl<I: Interface<N>, const N: usize> Clone for Communication<I, N> {
             before: self.before.clone(),
             system: self.system,
             input: self.input.clone(),
-            steps: self.steps,
+            lengths: self.lengths,
         }
     }
 }
@@ -277,20 +301,20 @@ impl<I: Interface<N>, const N: usize> Model for CoSimulation<I, N> {
         if !is_here {
             return Err(Refusal::AnotherTime { given: point, own });
         }
-        let steps = (size / h).round();
-        if !(steps >= 1.0 && (size / h - steps).abs() <= ROUNDING && steps <= f64::from(u32::MAX)) {
-            return Err(Refusal::NotAMultiple { size, step_size: h });
-        }
+        let lengths = Lengths::of(size, self.step_size).ok_or(Refusal::CommunicationStep(size))?;
         let mut run = self.run.clone().ok_or(Refusal::NotNow(self.mode))?;
         let mut made = None;
-        for _ in 0..steps as u64 {
-            made = Some(self.advance(&mut run)?);
+        for length in lengths.each() {
+            made = Some(self.advance(&mut run, length)?);
+        }
+        if lengths.rest.is_some() {
+            run.change_step_size(self.step_size);
         }
         let reactions = made.map(|(time, made)| self.reactions_of(time, &made)).transpose()?;
         self.reactions = reactions.unwrap_or_default();
         let (system, input) = (self.system, self.input.clone());
         let before = self.run.replace(run);
-        self.last = before.map(|before| Communication { before, system, input, steps: steps as u64 });
+        self.last = before.map(|before| Communication { before, system, input, lengths });
         Ok(())
     }
 

@@ -14,15 +14,23 @@ const TOOL: &str = concat!("dalembert ", env!("CARGO_PKG_VERSION"));
 
 /// The categories of the log, each with its description.
 pub const CATEGORIES: [(&str, &str); 3] = [
-    ("logStatusDiscard", "A communication step that is no multiple of the step size"),
+    ("logStatusDiscard", "A communication step that is not positive, or too short or too long"),
     ("logStatusError", "Calls that were refused, and steps without a solution"),
     ("logStatusFatal", "A panic in the model"),
 ];
 
 impl<I: Interface<N>, const N: usize> Unit<I, N> {
     /// modelDescription.xml of FMI 3.0.
+    ///
+    /// # Panics
+    /// Where the documentation gives two variables one name.
     #[must_use]
     pub fn description(&self) -> String {
+        self.description_fmi3().expect("FMI 3.0 has a type for every field")
+    }
+
+    /// modelDescription.xml of FMI 3.0, where no name is given twice.
+    pub(crate) fn description_fmi3(&self) -> io::Result<String> {
         let version = Version {
             number: "3.0",
             token: "instantiationToken",
@@ -31,7 +39,7 @@ impl<I: Interface<N>, const N: usize> Unit<I, N> {
             variable,
             structure,
         };
-        document(self, &version).expect("FMI 3.0 has a type for every field")
+        document(self, &version)
     }
 }
 
@@ -52,6 +60,12 @@ struct Version {
 fn document<I: Interface<N>, const N: usize>(unit: &Unit<I, N>, version: &Version) -> io::Result<String> {
     let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
     let variables = variables::of(unit);
+    if let Some(name) = variables::name_twice(&variables) {
+        let text = format!(
+            "two variables of the unit have the name {name}: change it in the documentation of the struct"
+        );
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, text));
+    }
     let (description, token) = (described(I::System::DOCUMENTATION), unit.token());
     let root = writer
         .create_element("fmiModelDescription")
@@ -68,7 +82,7 @@ fn document<I: Interface<N>, const N: usize>(unit: &Unit<I, N>, version: &Versio
         to.create_element("CoSimulation")
             .with_attribute(("modelIdentifier", unit.name))
             .with_attributes(version.capabilities.map(|capability| (capability, "true")))
-            .with_attribute(("canHandleVariableCommunicationStepSize", "false"))
+            .with_attribute(("canHandleVariableCommunicationStepSize", "true"))
             .write_empty()?;
         units(&variables, to)?;
         categories(to)?;
@@ -84,7 +98,8 @@ fn document<I: Interface<N>, const N: usize>(unit: &Unit<I, N>, version: &Versio
 }
 
 fn described(documentation: &[&str]) -> String {
-    let lines: Vec<_> = documentation.iter().map(|line| line.trim()).collect();
+    let of_the_system = documentation.iter().filter(|line| !variables::is_told(line));
+    let lines: Vec<_> = of_the_system.map(|line| line.trim()).collect();
     lines.join(" ").trim().to_owned()
 }
 

@@ -9,7 +9,7 @@
 //! |---|---|
 //! | `time` | the time |
 //! | the fields of the struct | parameters, tunable: `cart`, `friction[1]`, `weights[0,2]`; a line `Unit: kg` of a field's documentation is its unit |
-//! | `step_size` | h, a fixed parameter: the communication step has to be a multiple |
+//! | `step_size` | h, a fixed parameter: a communication step takes whole ones, and a shorter one for what is left |
 //! | `u[0]` … | the inputs, each held over a communication step |
 //! | `q[0]` …, `v[0]` … | configuration and velocity: outputs, with the start values of the run |
 //! | `p[0]` …, `energy` | momenta and energy: outputs |
@@ -29,8 +29,16 @@
 //! `v` and `energy`. In initialization mode they are those of `p` and `energy` by `q` and `v`, unless
 //! constraints hold these.
 //!
-//! A call that fails changes nothing and says why to the importer's log. A communication step that is no
-//! multiple of h is `fmi3Discard`; a step that cannot be solved is `fmi3Error` with the text of its
+//! A line of the struct's documentation names `u[0]`, `q[0]`, `v[0]` or `p[0]`, describes it and gives its unit,
+//! each if it likes:
+//!
+//! ```text
+//! /// - `q[0]` position: of the cart on the rail. Unit: m
+//! /// - `u[0]`: force on the cart. Unit: N
+//! ```
+//!
+//! A call that fails changes nothing and says why to the importer's log. A communication step that is not
+//! positive is `fmi3Discard`; a step that cannot be solved is `fmi3Error` with the text of its
 //! [`StepError`](dalembert::StepError), and leaves the unit where the communication step began. In FMI 2.0
 //! both are `fmi2Error`. A panic in L, R or f is `fmi3Fatal`.
 

@@ -16,10 +16,11 @@ impl<I: Interface<N>, const N: usize> Unit<I, N> {
     /// program.
     ///
     /// # Errors
-    /// Where the library is not there, or `file` cannot be written; the message names either.
+    /// Where the library is not there, `file` cannot be written, or the documentation gives two variables one
+    /// name; the message names which.
     pub fn pack(&self, file: impl AsRef<Path>) -> io::Result<()> {
         let system = if OS == "macos" { "darwin" } else { OS };
-        self.write(file.as_ref(), &self.description(), &format!("{ARCH}-{system}"))
+        self.write(file.as_ref(), &self.description_fmi3()?, &format!("{ARCH}-{system}"))
     }
 
     /// As [`pack`](Self::pack), a unit of FMI 2.0.

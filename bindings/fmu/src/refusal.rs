@@ -9,8 +9,8 @@ use dalembert::StepError;
 pub enum Refusal {
     /// A step, or the start, has no result.
     Step { error: StepError, time: f64 },
-    /// The communication step is no multiple of h.
-    NotAMultiple { size: f64, step_size: f64 },
+    /// The communication step is none.
+    CommunicationStep(f64),
     /// The importer is at another time.
     AnotherTime { given: f64, own: f64 },
     /// h is not finite and positive.
@@ -69,11 +69,12 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Step { error, time } => write!(f, "at time {time}: {error}"),
-            Self::NotAMultiple { size, step_size } => write!(
-                f,
-                "the communication step {size} is no multiple of the step size {step_size}: give a multiple, or set \
-                 the parameter step_size before initialization is left"
-            ),
+            Self::CommunicationStep(size) => {
+                write!(
+                    f,
+                    "the communication step {size} is not positive, or too short or too long to be taken"
+                )
+            }
             Self::AnotherTime { given, own } => {
                 write!(f, "the communication point {given} is not where the unit is, at {own}")
             }

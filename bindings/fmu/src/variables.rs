@@ -1,9 +1,12 @@
 //! The variables of a unit; a value reference is a place among them.
 
+mod told;
+
 use dalembert::system::Scalar;
 use dalembert_face::{Described, Field, Fields, Interface, Number};
 
 use crate::Unit;
+pub use told::is_told;
 
 /// The quantity that a variable is a number of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -126,12 +129,20 @@ pub fn of<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> Vec<Variable> {
         );
         all.push(Variable::new(name, &of, place, Role::Calculated, zero));
     }
+    told::tell(I::System::DOCUMENTATION, &mut all);
     all
+}
+
+/// A name that two variables have.
+pub fn name_twice(all: &[Variable]) -> Option<&str> {
+    let mut names: Vec<_> = all.iter().map(|variable| variable.name.as_str()).collect();
+    names.sort_unstable();
+    names.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| pair[0])
 }
 
 fn step_size<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> Variable {
     let description = format!(
-        "Step size of the rule {}: the communication step has to be a multiple",
+        "Step size of the rule {}: a communication step takes whole ones, and a shorter one for what is left",
         unit.rule.replace(' ', "")
     );
     Variable::new("step_size", &description, Place::StepSize, Role::Fixed, number(unit.step_size))
@@ -164,4 +175,21 @@ fn parameters<'a, I: Interface<N>, const N: usize>(
         variable.unit = units.get(index).or(units.last()).cloned();
         variable
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use dalembert_face::Number;
+
+    use super::{Place, Role, Variable, name_twice, told};
+
+    #[test]
+    fn a_name_given_twice_is_found() {
+        let input = |i| Variable::new(format!("u[{i}]"), "", Place::Input(i), Role::Input, Number::F64(0.0));
+        let mut inputs = [input(0), input(1)];
+        told::tell(&["- `u[0]` force: on the cart. Unit: N"], &mut inputs);
+        assert_eq!((inputs[0].name.as_str(), name_twice(&inputs)), ("force", None));
+        told::tell(&["- `u[1]` force: on the rod"], &mut inputs);
+        assert_eq!(name_twice(&inputs), Some("force"));
+    }
 }

@@ -73,6 +73,9 @@ motion = ["q[0]", "q[1]", "v[0]", "v[1]", "p[0]", "p[1]", "energy"]
 check(validate_fmu(str(unit)) == [], f"validates: {validate_fmu(str(unit))}")
 check(names == ["time", "step_size", *parameters, "u[0]", *motion], f"the variables: {names}")
 check([of[name].unit for name in parameters] == ["kg", "kg", "m", "N.s/m", "N.m.s"], "units from the documentation")
+check([of[name].unit for name in ["u[0]", "q[0]", "q[1]", "v[0]", "v[1]", "p[0]"]] == ["N", "m", "rad", "m/s", "rad/s", "N.s"], "units")
+check(of["q[1]"].description == "angle of the rod from upright." and of["p[1]"].unit is None, "what the documentation tells")
+check(description.description == "A rod hinged to a cart on a rail.", f"the rest of it: {description.description}")
 check(of["rod"].description == "Mass of the rod.", "descriptions from the documentation")
 check(of["u[0]"].causality == "input" and of["energy"].causality == "output", "inputs and outputs")
 
@@ -162,10 +165,10 @@ check(list(one.doStep(0.0, 0.05)[:3]) == [False] * 3, "a step over five times h"
 holds(lambda: same(get(one, *motion), runs["stated"][5, 1:]), "five steps are five steps")
 check(abs(get(one, "time")[0] - 0.05) < 1e-15, "the time")
 
-# A communication step that is no multiple, and one from elsewhere: refused, and nothing changed.
-refused(lambda: one.doStep(0.05, 0.015), fmi3Discard, "0.015", "no multiple", "0.01")
-refused(lambda: one.doStep(0.05, 0.004), fmi3Discard, "no multiple")
-refused(lambda: one.doStep(0.05, float("nan")), fmi3Discard, "no multiple")
+# A communication step that is none, and one from elsewhere: refused, and nothing changed.
+refused(lambda: one.doStep(0.05, 0.0), fmi3Discard, "0", "not positive")
+refused(lambda: one.doStep(0.05, -0.01), fmi3Discard, "-0.01", "not positive")
+refused(lambda: one.doStep(0.05, float("nan")), fmi3Discard, "not positive")
 refused(lambda: one.doStep(0.06, 0.01), fmi3Error, "0.06", "0.05")
 check(one.doStep(0.05, 0.01 * (1 + 1e-9))[3] == 0.06, "rounding of the importer's clock is none of these")
 holds(lambda: same(get(one, *motion), runs["stated"][6, 1:]), "what was refused has changed nothing")
@@ -184,11 +187,11 @@ refused(lambda: instance({"v[0]": 1e300, "step_size": 1e300}).doStep(0.0, 1e300)
 one.setDebugLogging(False, [])
 said.clear()
 try:
-    one.doStep(0.08, 0.001)
+    one.doStep(0.08, 0.0)
 except FMICallException:
     check(said == [], "a log that is off says nothing")
 one.setDebugLogging(True, ["logStatusDiscard"])
-refused(lambda: one.doStep(0.08, 0.001), fmi3Discard, "no multiple")
+refused(lambda: one.doStep(0.08, 0.0), fmi3Discard, "not positive")
 one.setDebugLogging(True, [])
 
 # What may be set when.
@@ -217,6 +220,26 @@ one.enterInitializationMode(startTime=0.0)
 one.exitInitializationMode()
 one.doStep(0.0, 0.1)
 holds(lambda: same(get(one, *motion), runs["stated"][10, 1:]), "a reset unit is a new one, bit by bit")
+
+# A communication step that is no multiple of h ends with a shorter step: those of a unit with that h.
+parted = instance()
+parted.doStep(0.0, 0.035)
+check(abs(get(parted, "time")[0] - 0.035) < 1e-15, "the run ends at the time asked for")
+whole, short = instance(), instance({"step_size": 0.005})
+whole.doStep(0.0, 0.03)
+state = dict(zip(["q[0]", "q[1]", "v[0]", "v[1]"], get(whole, "q[0]", "q[1]", "v[0]", "v[1]")))
+short = instance({**state, "step_size": 0.005})
+short.doStep(0.0, 0.005)
+holds(lambda: close(get(parted, *motion), get(short, *motion), 1e-14), "the shorter step is that of its length")
+fails(lambda: close(get(parted, *motion), get(whole, *motion), 1e-14), "without it the run is elsewhere")
+parted.doStep(0.035, 0.03)
+check(abs(get(parted, "time")[0] - 0.065) < 1e-15, "h is as before")
+again = instance({**dict(zip(["q[0]", "q[1]", "v[0]", "v[1]"], get(short, "q[0]", "q[1]", "v[0]", "v[1]")))})
+again.doStep(0.0, 0.03)
+holds(lambda: close(get(parted, *motion), get(again, *motion), 1e-13), "the next ones are of h again")
+tiny = instance()
+tiny.doStep(0.0, 1e-4)
+check(abs(get(tiny, "time")[0] - 1e-4) < 1e-18, "a communication step may be shorter than h")
 
 # Another build's description.
 said.clear()
@@ -263,7 +286,8 @@ two.freeFMUState(read)
 
 begin = {"q[0]": 0.2, "q[1]": 0.7, "v[0]": -0.3, "v[1]": 1.1}
 ends = ["q[0]", "q[1]", "p[0]", "p[1]", "v[0]", "v[1]", "energy"]
-SIZE = 0.03
+# Three steps of h and a shorter one.
+SIZE = 0.034
 
 
 def end_of(start_values, u=0.4, **then):
@@ -404,7 +428,7 @@ two.doStep(0.0, SIZE)
 holds(lambda: same(two.getReal([vr[name] for name in ends]), end), "FMI 2.0: a communication step")
 found = two.getDirectionalDerivative([vr[name] for name in ends], [vr["u[0]"]], [1.0])
 holds(lambda: same(found, along(ends, ["u[0]"], [1.0])), "FMI 2.0: the same derivatives")
-refused(lambda: two.doStep(SIZE, 0.015), fmi3Error, "no multiple")
+refused(lambda: two.doStep(SIZE, 0.0), fmi3Error, "not positive")
 refused(lambda: two.getInteger([vr["rod"]]), fmi3Error, "Float64")
 refused(lambda: two.setReal([vr["q[0]"]], [0.0]), fmi3Error, "q[0]")
 check(two.getRealStatus(2) == SIZE and not two.getBooleanStatus(3), "FMI 2.0: status")

@@ -11,6 +11,9 @@ use rand::{RngExt, SeedableRng};
 
 dalembert_fmu::parameters! {
     /// A pendulum whose gravity swells & ebbs, with two inputs.
+    ///
+    /// - `q[0]`: Unit: rad
+    /// - `v[0]` swing.rate: of the angle
     pub struct Winch {
         /// Which of the weights pulls.
         pub choice: u8,
@@ -93,7 +96,10 @@ fn fields_of_all_shapes_are_parameters() {
         r#"<Int16 name="turns[2]""#,
         r#"name="weights[1,0]""#,
         r#"description="Drag." causality="parameter" variability="tunable" initial="exact" unit="N.m.s" start="0.2""#,
-        "swells &amp; ebbs",
+        r#"description="A pendulum whose gravity swells &amp; ebbs, with two inputs.""#,
+        r#"name="q[0]" valueReference="13" description="Configuration""#,
+        r#"<Float64 name="swing.rate" valueReference="14" description="of the angle""#,
+        r#"unit="rad/s""#,
         "Weights of it, &lt; 2.",
     ] {
         assert!(description.contains(part), "{part}: {description}");
@@ -154,7 +160,7 @@ fn call(unit: &mut Imported, random: &mut StdRng) -> Result<(), Status> {
         "u[0]",
         "u[1]",
         "q[0]",
-        "v[0]",
+        "swing.rate",
         "p[0]",
         "energy",
         "choice",

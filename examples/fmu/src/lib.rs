@@ -3,7 +3,12 @@
 use dalembert::{Midpoint, rayleigh_system};
 
 dalembert_fmu::parameters! {
-    /// A rod hinged to a cart on a rail; q is (position in m, angle from upright in rad), u the force on the cart in N.
+    /// A rod hinged to a cart on a rail.
+    ///
+    /// - `q[0]`: position of the cart. Unit: m
+    /// - `q[1]`: angle of the rod from upright. Unit: rad
+    /// - `p[0]`: Unit: N.s
+    /// - `u[0]`: force on the cart. Unit: N
     pub struct CartPole {
         /// Mass of the cart.
         /// Unit: kg

@@ -153,7 +153,10 @@ fn carried<I: Interface<N>, const N: usize>(
     let last = of.last.as_ref().ok_or(Refusal::NoStep)?;
     let (mut dq, mut dp) = (given.q, given.p);
     let mut run = last.before.clone();
-    for _ in 0..last.steps {
+    for length in last.lengths.each() {
+        if length != run.step_size() {
+            run.change_step_size(length);
+        }
         let time = of.start_time + run.time();
         let failed = |error| Refusal::Step { error, time };
         let (input, now) = CoSimulation::<I, N>::given(&last.input, time);

@@ -12,12 +12,19 @@ impl<I: Interface<N>, const N: usize> CoSimulation<I, N> {
             return Ok(self.reactions.clone());
         }
         let mut run = Run::<I, N>::new(self.step_size, self.motion()?.0);
-        let (time, made) = self.advance(&mut run)?;
+        let (time, made) = self.advance(&mut run, self.step_size)?;
         self.reactions_of(time, &made)
     }
 
-    /// Takes a step of `run` with the input as it is; when, and the step.
-    pub(super) fn advance(&self, run: &mut Run<I, N>) -> Result<(f64, StepMade<I::Scalar, N>), Refusal> {
+    /// Takes a step of `run` of this length with the input as it is; when, and the step.
+    pub(super) fn advance(
+        &self,
+        run: &mut Run<I, N>,
+        length: I::Scalar,
+    ) -> Result<(f64, StepMade<I::Scalar, N>), Refusal> {
+        if length != run.step_size() {
+            run.change_step_size(length);
+        }
         let time = self.start_time + run.time();
         let (input, now) = Self::given(&self.input, time);
         let (h, state) = (run.step_size(), *run.state());
