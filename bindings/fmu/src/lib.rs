@@ -9,7 +9,7 @@
 //! |---|---|
 //! | `time` | the time |
 //! | the fields of the struct | parameters, tunable: `cart`, `friction[1]`, `weights[0,2]`; a line `Unit: kg` of a field's documentation is its unit |
-//! | `step_size` | h, a fixed parameter: a communication step takes whole ones, and a shorter one for what is left |
+//! | `step_size` | h, a fixed parameter: what it leaves of a communication step is a shorter step |
 //! | `u[0]` … | the inputs, each held over a communication step |
 //! | `q[0]` …, `v[0]` … | configuration and velocity: outputs, with the start values of the run |
 //! | `p[0]` …, `energy` | momenta and energy: outputs |
@@ -29,8 +29,8 @@
 //! `v` and `energy`. In initialization mode they are those of `p` and `energy` by `q` and `v`, unless
 //! constraints hold these.
 //!
-//! A line of the struct's documentation names `u[0]`, `q[0]`, `v[0]` or `p[0]`, describes it and gives its unit,
-//! each if it likes:
+//! A line of the struct's documentation names `u[0]`, `q[0]`, `v[0]` or `p[0]`, describes it and gives its
+//! unit, each if it likes:
 //!
 //! ```text
 //! /// - `q[0]` position: of the cart on the rail. Unit: m

@@ -41,8 +41,8 @@ pub fn text() -> Result<String> {
             found.tried, found.refused, found.stuck, found.worst
         );
     }
-    text += "\nThose refused, by name and with the state as it was, have more elements that stick than coordinates, or nearly so: their \
-             forces are not determined, and the search for some that hold ends.\n";
+    text += "\nWhere more elements stick than there are coordinates, or nearly so, their forces are not determined: some that hold are \
+             taken.\n";
     let tried = 1000;
     let [below, above] = steps::at_the_edge(tried)?;
     text += &format!(
