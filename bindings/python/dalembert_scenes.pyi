@@ -12,6 +12,10 @@ from typing_extensions import disjoint_base
 type _Array = npt.NDArray[np.float64]
 type _Numbers = Sequence[float] | Sequence[Sequence[float]] | npt.NDArray[np.floating[Any] | np.integer[Any]]
 
+type _Event = Plane | Callable[[float, _Array, _Array], float]
+
+__version__: str
+
 @final
 class Breach:
     """Where the error expected of a run has passed the tolerance."""
@@ -181,6 +185,12 @@ class Run:
     @property
     def events(self) -> list[Crossings]:
         """The events of each function that was given."""
+    def to_pandas(self) -> Any:
+        """A pandas DataFrame with a row for each record and t as its index."""
+    def to_xarray(self) -> Any:
+        """An xarray Dataset with the coordinate t."""
+    def plot(self) -> Any:
+        """A figure of matplotlib: q above, the energy below."""
     def __len__(self) -> int: ...
 
 @final
@@ -307,13 +317,15 @@ class System:
         steps: int | None = None,
         tolerance: float | None = None,
         until: float | None = None,
-        every: int = 1,
+        times: Sequence[float] | _Array | None = None,
+        every: int | None = None,
+        max_steps: int | None = None,
         rule: str | None = None,
         u: _Numbers | None = None,
         t: float | None = None,
         derivatives: bool = False,
         reactions: bool = False,
-        events: Sequence[Plane | Callable[[float, _Array, _Array], float]] | None = None,
+        events: _Event | Sequence[_Event] | None = None,
         progress: Callable[[int, int], object] | None = None,
     ) -> Run:
         """The motion from (q, v), or from (q, p)."""
@@ -333,10 +345,10 @@ class System:
         u: _Numbers | None = None,
         t: float | None = None,
         fields: dict[str, Any] | None = None,
-        events: Sequence[Plane | Callable[[float, _Array, _Array], float]] | None = None,
+        events: _Event | Sequence[_Event] | None = None,
         folder: None = None,
-        members_per_part: int = 65_536,
-        first: int = 0,
+        members_per_part: int | None = None,
+        first: int | None = None,
         threads: int | None = None,
         progress: Callable[[int, int], object] | None = None,
     ) -> Ends: ...
@@ -356,10 +368,10 @@ class System:
         u: _Numbers | None = None,
         t: float | None = None,
         fields: dict[str, Any] | None = None,
-        events: Sequence[Plane | Callable[[float, _Array, _Array], float]] | None = None,
+        events: _Event | Sequence[_Event] | None = None,
         folder: str | PathLike[str],
-        members_per_part: int = 65_536,
-        first: int = 0,
+        members_per_part: int | None = None,
+        first: int | None = None,
         threads: int | None = None,
         progress: Callable[[int, int], object] | None = None,
     ) -> Parts:
@@ -383,7 +395,7 @@ class System:
         low: _Numbers,
         high: _Numbers,
         reach: _Numbers,
-        samples: int = 100,
+        samples: int | None = None,
         generators: dict[str, tuple[_Numbers, _Numbers]] | None = None,
         u: _Numbers | None = None,
         t: float | None = None,

@@ -6,9 +6,9 @@ use dalembert::nalgebra::SVector;
 use dalembert::run::Run;
 use dalembert::run::between::{Divisible, Moment};
 use dalembert::run::events::{Crossing, Event as Happened, EventError, Watch, Watched};
-use dalembert::step::Step;
 use dalembert::{Lagrangian, State, StepError};
 
+use crate::between::{At, BySome, looked_at};
 use crate::motion::{Motion, measured};
 
 /// Most functions of one run.
@@ -84,10 +84,6 @@ pub struct Events<'a> {
     pub origin: f64,
 }
 
-/// A run by some method: watching is compiled for a system, not for each of its methods.
-pub(crate) type BySome<'r, L, const N: usize> =
-    dyn Divisible<N, Item = Result<Step<f64, N>, StepError>, Scalar = f64, System = L> + 'r;
-
 /// A run that is watched, while it is recorded.
 struct Watching<'t, 'r, 'e, L: Lagrangian<N, Scalar = f64>, G, const N: usize> {
     watch: Watch<'t, BySome<'r, L, N>, G, N, MOST>,
@@ -159,5 +155,15 @@ where
         let run = self.watch.run();
         Divisible::system(run)
             .later(self.time() - Divisible::since(run), |system| measured(system, self.state()))
+    }
+
+    fn at(&self, time: f64) -> Option<Result<At<N>, StepError>> {
+        let dense = self.watch.dense();
+        // The step of a terminal event goes further.
+        let is_past_end = self.end.is_some_and(|(end, _)| match Divisible::step_size(dense.run()) {
+            h if h < 0.0 => time < end,
+            _ => time > end,
+        });
+        if is_past_end { None } else { looked_at(dense, time) }
     }
 }

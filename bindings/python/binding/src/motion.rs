@@ -8,6 +8,7 @@ use dalembert::{Lagrangian, State, StepError};
 
 use dalembert_face::{ByParameters, Described, Reacting, StepMade};
 
+use crate::between::At;
 use crate::derivatives::Dependence;
 use crate::system::System;
 
@@ -27,6 +28,12 @@ pub trait Motion<const N: usize> {
     /// # Errors
     /// Those of [`State::velocity`].
     fn measured(&self) -> Result<(SVector<f64, N>, f64), StepError>;
+
+    /// The state at a time of the last step; `None` where the run has not come so far, or is not looked into.
+    fn at(&self, time: f64) -> Option<Result<At<N>, StepError>> {
+        let _ = time;
+        None
+    }
 
     /// How it follows the start and the parameters, where that is carried along.
     fn dependence(&self) -> Option<&Dependence<N>> {

@@ -10,6 +10,7 @@ use dalembert::tolerance::ToleranceError;
 use dalembert::{Lagrangian, State};
 use dalembert_ensemble::{End, Failure, MemberError, Plan, Record, Slot, Stepping, one_by_one};
 
+use crate::between::Look;
 use crate::events::{Events, Function};
 use crate::motion::Motion;
 use crate::offer::{ErrorAsked, Steps, StepsToError};
@@ -108,7 +109,8 @@ impl<S: System<N>, const N: usize> Watched<'_, S, N> {
         let ran = catch_unwind(AssertUnwindSafe(|| match &self.steps {
             Unwatched::Fixed(by, Plan { h, steps, every, .. }) => {
                 let mut record = |motion: &mut dyn Motion<N>| run.follow(motion, *steps, *every, stop);
-                by.run(system, *h, &start, Some(self.events), &mut record);
+                let look = Look { events: Some(self.events), ..Look::default() };
+                by.run(system, *h, &start, look, &mut record);
                 Ok(())
             }
             Unwatched::ToError(by, asked) => {

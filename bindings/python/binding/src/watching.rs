@@ -8,7 +8,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyModule;
 
-use crate::arguments::vector;
+use crate::arguments::{expected, vector};
 use crate::arrays::to_array;
 use crate::events::{Event, Function, MOST};
 
@@ -84,11 +84,11 @@ impl Raised {
 /// `TypeError`, `ValueError`.
 pub fn functions<'a>(
     py: Python<'_>,
-    given: Option<Vec<Bound<'_, PyAny>>>,
+    given: Option<&Bound<'_, PyAny>>,
     n: usize,
     raised: &'a Raised,
 ) -> PyResult<Vec<Event<'a>>> {
-    let given = given.unwrap_or_default();
+    let given = given.map(listed).transpose()?.unwrap_or_default();
     if given.len() > MOST {
         return Err(PyValueError::new_err(format!(
             "events: expected at most {MOST} functions, got {}",
@@ -97,6 +97,17 @@ pub fn functions<'a>(
     }
     given.into_iter().map(|function| event(py, &function, n, raised)).collect()
 }
+
+/// The functions that are given, or the one that is.
+fn listed<'py>(given: &Bound<'py, PyAny>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    if given.is_callable() || given.is_instance_of::<Plane>() {
+        return Ok(vec![given.clone()]);
+    }
+    given.extract().map_err(|_| PyTypeError::new_err(NOT_EVENTS))
+}
+
+/// The message of an argument that is no event function.
+const NOT_EVENTS: &str = "events: expected planes, or functions of (t, q, v)";
 
 fn event<'a>(py: Python<'_>, given: &Bound<'_, PyAny>, n: usize, raised: &'a Raised) -> PyResult<Event<'a>> {
     let attribute = |name: &str| given.getattr_opt(name);
@@ -118,7 +129,10 @@ fn event<'a>(py: Python<'_>, given: &Bound<'_, PyAny>, n: usize, raised: &'a Rai
         Function::Given(Box::new(move |t, q, v| {
             let value = Python::attach(|py| -> PyResult<f64> {
                 let vector = |numbers: &[f64]| to_array(py, numbers.to_vec(), [numbers.len()]);
-                callable.call1(py, (t, vector(q)?, vector(v)?))?.extract(py)
+                let value = callable.call1(py, (t, vector(q)?, vector(v)?))?;
+                value.extract(py).map_err(|_| {
+                    expected("events: a function of (t, q, v)", "a number from it", value.bind(py))
+                })
             });
             value.unwrap_or_else(|error| {
                 raised.put(error);
@@ -126,7 +140,7 @@ fn event<'a>(py: Python<'_>, given: &Bound<'_, PyAny>, n: usize, raised: &'a Rai
             })
         }))
     } else {
-        return Err(PyTypeError::new_err("events: expected planes, or functions of (t, q, v)"));
+        return Err(PyTypeError::new_err(NOT_EVENTS));
     };
     Ok(Event { function, crossing, is_terminal })
 }
