@@ -8,8 +8,8 @@ use dalembert::run::between::{Divisible, Moment};
 use dalembert::run::events::{Crossing, Event as Happened, EventError, Watch, Watched};
 use dalembert::{Lagrangian, State, StepError};
 
-use crate::between::{At, BySome, looked_at};
-use crate::motion::{Motion, measured};
+use crate::between::{BySome, looked_at};
+use crate::motion::{At, Motion, measured};
 
 /// Most functions of one run.
 pub const MOST: usize = 8;

@@ -44,6 +44,8 @@ mod error;
 pub mod events;
 mod linearization;
 #[doc(hidden)]
+pub mod look;
+#[doc(hidden)]
 pub mod many;
 #[doc(hidden)]
 pub mod model;

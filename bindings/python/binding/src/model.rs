@@ -9,9 +9,9 @@ use dalembert::system::Structure;
 use dalembert::{Lagrangian, State, StepError};
 use dalembert_face::{Described, Field, Fields, Holding, Number};
 
-use crate::between::Look;
 use crate::checks::{Affine, Ledger, Region, Symmetry};
 use crate::events::{Event, Events};
+use crate::look::Look;
 use crate::many::{self, Asked, Control, Kept, NoResult, Written};
 use crate::motion::{Along, Given, Motion, measured};
 use crate::offer::{Offer, Offers, Stepping};

@@ -8,9 +8,19 @@ use dalembert::{Lagrangian, State, StepError};
 
 use dalembert_face::{ByParameters, Described, Reacting, StepMade};
 
-use crate::between::At;
 use crate::derivatives::Dependence;
 use crate::system::System;
+
+/// A state between the steps, with its velocity and energy.
+#[derive(Clone, Copy, Debug)]
+pub struct At<const N: usize> {
+    /// The state.
+    pub state: State<f64, N>,
+    /// Its velocity.
+    pub v: SVector<f64, N>,
+    /// Its energy.
+    pub energy: f64,
+}
 
 /// A run while it is recorded.
 pub trait Motion<const N: usize> {

@@ -9,10 +9,10 @@ use dalembert::{State, StepError};
 use dalembert_ensemble::{OneByOne, Plan, SideBySide, ToError};
 use dalembert_face::{ByInput, ByParameters, Column, Reacting};
 
-use crate::between::{Look, looked_into, seen};
 use crate::checks::{self, Checks};
 use crate::derivatives::{column_rows, matrix_rows};
 use crate::events::Events;
+use crate::look::{Look, looked_into, seen};
 use crate::motion::{Along, Given, Motion, Of, StepByStep};
 use crate::record::Guarded;
 use crate::refusal::Refusal;

@@ -8,14 +8,13 @@ use dalembert::run::events::{EventError, Watched};
 use dalembert::tolerance::Breach;
 use dalembert::{State, StepError};
 
-use crate::between::At;
 use crate::derivatives::{column_rows, matrix_rows};
 use crate::events::Found;
-use crate::motion::Motion;
+use crate::motion::{At, Motion};
 pub use crate::refusal::Failure;
 use crate::watch::Watch;
 
-/// What is recorded of a run.
+/// The records that are asked of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan<'a> {
     /// Steps in all, or about as many of a run that ends by itself.
@@ -35,7 +34,7 @@ pub struct Plan<'a> {
 pub enum Recorded<'a> {
     /// The start, the end and those after every so many steps.
     Every(u64),
-    /// Those at these times, in the order of the run.
+    /// The states at these times, in the order of the run.
     At(&'a [Timed]),
 }
 

@@ -10,8 +10,8 @@ use dalembert::tolerance::ToleranceError;
 use dalembert::{Lagrangian, State};
 use dalembert_ensemble::{End, Failure, MemberError, Plan, Record, Slot, Stepping, one_by_one};
 
-use crate::between::Look;
 use crate::events::{Events, Function};
+use crate::look::Look;
 use crate::motion::Motion;
 use crate::offer::{ErrorAsked, Steps, StepsToError};
 use crate::system::System;
