@@ -179,9 +179,9 @@ impl System {
     /// t : time at the start, of a system that takes the time; 0 unless said
     /// derivatives : whether records have derivatives by start and parameters
     /// reactions : whether records have λ, of a system with constraints
-    /// events : up to eight functions whose zeros are found, to rounding: each a Plane, or a callable of
-    ///     (t, q, v) that returns a number; with an attribute `direction`, 1 or -1, crossings one way alone
-    ///     count, and one with `terminal` ends the run
+    /// events : up to eight functions whose zeros are found, to rounding: each a Plane, a Sphere, an Energy, an
+    ///     Event of the Rust block, or a callable of (t, q, v) that returns a number; with an attribute
+    ///     `direction`, 1 or -1, crossings one way alone count, and one with `terminal` ends the run
     /// progress : callable, called with the steps taken and to take, some twenty times a second
     ///
     /// Returns
@@ -250,7 +250,7 @@ impl System {
         let recorded =
             timed.as_deref().map_or(Recorded::Every(every.unwrap_or(1)), |times| Recorded::At(times));
         let raised = Raised::default();
-        let events = watching::functions(py, events, kind.coordinates(), &raised)?;
+        let events = watching::functions(py, events, kind, &raised)?;
         let asked = Asked { start: given.start(), stepping, recorded, along, events: &events };
         let told = |py: Python<'_>, far: (u64, u64)| {
             progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, far).map(drop))
@@ -350,7 +350,7 @@ impl System {
         let first = count("first", first)?.unwrap_or(0);
         let threads = count_from(1, "threads", threads)?.map(|threads| threads as usize);
         let raised = Raised::default();
-        let events = watching::functions(py, events, model.kind().coordinates(), &raised)?;
+        let events = watching::functions(py, events, model.kind(), &raised)?;
         let parts = folder.map(|folder| (folder, members_per_part));
         let given = ensemble::Given {
             q,

@@ -12,7 +12,7 @@ from typing_extensions import disjoint_base
 type _Array = npt.NDArray[np.float64]
 type _Numbers = Sequence[float] | Sequence[Sequence[float]] | npt.NDArray[np.floating[Any] | np.integer[Any]]
 
-type _Event = Plane | Callable[[float, _Array, _Array], float]
+type _Event = Plane | Sphere | Energy | Event | Callable[[float, _Array, _Array], float]
 
 __version__: str
 
@@ -79,6 +79,56 @@ class Plane:
     @property
     def direction(self) -> float:
         """Which crossings count."""
+    @property
+    def terminal(self) -> bool:
+        """Whether the run ends there."""
+
+@final
+class Sphere:
+    """A sphere in the space of configurations that a run crosses: |q − center| = radius."""
+
+    def __new__(
+        cls, center: Sequence[float], radius: float, *, direction: float = 0.0, terminal: bool = False
+    ) -> Self: ...
+    @property
+    def center(self) -> list[float]:
+        """Its centre."""
+    @property
+    def radius(self) -> float:
+        """Its radius."""
+    @property
+    def direction(self) -> float:
+        """Which crossings count."""
+    @property
+    def terminal(self) -> bool:
+        """Whether the run ends there."""
+
+@final
+class Energy:
+    """An energy v·∂L/∂v − L that a run passes."""
+
+    def __new__(cls, value: float, *, direction: float = 0.0, terminal: bool = False) -> Self: ...
+    @property
+    def value(self) -> float:
+        """The energy."""
+    @property
+    def direction(self) -> float:
+        """Which passages count."""
+    @property
+    def terminal(self) -> bool:
+        """Whether the run ends there."""
+
+@final
+class Event:
+    """An event function of `fn events` in the Rust block of the system, of as many as `EVENTS` says."""
+
+    def __new__(cls, index: int = 0, *, direction: float = 0.0, terminal: bool = False) -> Self: ...
+    @property
+    def index(self) -> int:
+        """Which of them."""
+    @property
+    def direction(self) -> float:
+        """Which zeros count."""
     @property
     def terminal(self) -> bool:
         """Whether the run ends there."""
@@ -303,6 +353,7 @@ class System:
     INPUTS: ClassVar[int]
     TAKES_TIME: ClassVar[bool]
     CONSTRAINTS: ClassVar[int]
+    EVENTS: ClassVar[int]
     PARAMETERS: ClassVar[tuple[str, ...]]
     RULES: ClassVar[tuple[str, ...]]
     STRUCTURE: ClassVar[_Structure]

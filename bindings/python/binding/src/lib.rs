@@ -151,6 +151,7 @@ macro_rules! system {
                 type Input = <$system as Described<N>>::Input;
                 type Parameters = <$system as Described<N>>::Parameters;
                 type Multipliers = <$system as Described<N>>::Multipliers;
+                type Events = <$system as Described<N>>::Events;
                 type View<'a> = <$system as Described<N>>::View<'a>;
 
                 fn view<'a>(fields: &'a $system, u: &[f64], t: f64) -> Self::View<'a> {

@@ -5,7 +5,7 @@ use dalembert::run::between::{Dense, Divisible, LastStep, Restartable};
 use dalembert::{Lagrangian, State};
 
 use crate::between::{BySome, Looking, Taken};
-use crate::events::{Events, watched};
+use crate::events::{Events, OfBlock, watched};
 use crate::motion::Motion;
 
 /// A run by some method that can end at a time.
@@ -35,6 +35,7 @@ impl Look<'_> {
 pub(crate) fn looked_into<L, const N: usize>(
     run: &mut EndingBySome<'_, L, N>,
     look: Look<'_>,
+    of_block: OfBlock<L, N>,
     record: &mut dyn FnMut(&mut dyn Motion<N>),
 ) where
     L: Lagrangian<N, Scalar = f64>,
@@ -42,9 +43,9 @@ pub(crate) fn looked_into<L, const N: usize>(
     match look.end {
         Some(end) => {
             let size = Divisible::step_size(run);
-            seen(&mut Ending { run, end, size }, look.events, record);
+            seen(&mut Ending { run, end, size }, look.events, of_block, record);
         }
-        None => seen(run, look.events, record),
+        None => seen(run, look.events, of_block, record),
     }
 }
 
@@ -52,12 +53,13 @@ pub(crate) fn looked_into<L, const N: usize>(
 pub(crate) fn seen<L, const N: usize>(
     run: &mut BySome<'_, L, N>,
     events: Option<Events<'_>>,
+    of_block: OfBlock<L, N>,
     record: &mut dyn FnMut(&mut dyn Motion<N>),
 ) where
     L: Lagrangian<N, Scalar = f64>,
 {
     match events {
-        Some(events) => watched(run, events, record),
+        Some(events) => watched(run, events, of_block, record),
         None => record(&mut Looking { dense: Dense::new(run) }),
     }
 }

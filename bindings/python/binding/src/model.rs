@@ -35,6 +35,8 @@ pub trait Kind: Send + Sync {
     fn takes_time(&self) -> bool;
     /// The number of constraints.
     fn constraints(&self) -> usize;
+    /// The number of event functions that its block states.
+    fn events(&self) -> usize;
     /// The parameters by which steps are differentiated.
     fn parameters(&self) -> &'static [&'static str];
     /// The methods by which it is stepped, as `rule=` calls them.
@@ -234,6 +236,10 @@ impl<S: Offers<N>, const N: usize> Kind for KindOf<S, N> {
 
     fn constraints(&self) -> usize {
         S::Fields::CONSTRAINTS
+    }
+
+    fn events(&self) -> usize {
+        S::Fields::EVENTS
     }
 
     fn parameters(&self) -> &'static [&'static str] {

@@ -61,6 +61,7 @@ fn class<'py>(module: &Bound<'py, PyModule>, kind: &'static dyn Kind) -> PyResul
     namespace.set_item("INPUTS", kind.inputs())?;
     namespace.set_item("TAKES_TIME", kind.takes_time())?;
     namespace.set_item("CONSTRAINTS", kind.constraints())?;
+    namespace.set_item("EVENTS", kind.events())?;
     namespace.set_item("PARAMETERS", PyTuple::new(py, kind.parameters())?)?;
     namespace.set_item("RULES", PyTuple::new(py, kind.rules())?)?;
     namespace.set_item("STRUCTURE", structure::to_dict(py, &kind.structure())?)?;

@@ -11,7 +11,7 @@ use dalembert_face::{ByInput, ByParameters, Column, Reacting};
 
 use crate::checks::{self, Checks};
 use crate::derivatives::{column_rows, matrix_rows};
-use crate::events::Events;
+use crate::events::{Events, of_block};
 use crate::look::{Look, looked_into, seen};
 use crate::motion::{Along, Given, Motion, Of, StepByStep};
 use crate::record::Guarded;
@@ -321,7 +321,7 @@ where
     ) {
         let mut run = system.by(self.0, h).run(*start);
         if look.is_any() {
-            looked_into(&mut run, look, record);
+            looked_into(&mut run, look, of_block::<S::Events, _, N>, record);
         } else {
             record(&mut Of { system, run: &mut run });
         }
@@ -448,7 +448,7 @@ where
         let mut run = choice.trajectory();
         let steps = choice.steps();
         if look.is_any() {
-            seen(&mut run, look.events, &mut |motion| record(motion, steps));
+            seen(&mut run, look.events, of_block::<S::Events, _, N>, &mut |motion| record(motion, steps));
         } else {
             record(&mut Of { system, run: &mut run }, steps);
         }
@@ -471,7 +471,9 @@ where
     ) -> Result<(), ToleranceError> {
         let reached = asked.of(system).stopped_by(stop).end_followed(start, |run| {
             let (steps, mut failure) = (run.choice().steps(), None);
-            seen(run, Some(events), &mut |motion| failure = record(motion, steps));
+            seen(run, Some(events), of_block::<S::Events, _, N>, &mut |motion| {
+                failure = record(motion, steps);
+            });
             failure.map_or(Ok(()), Err)
         });
         reached.map(drop)
