@@ -110,8 +110,8 @@ mod attributes {
 ///
 /// `f32` in place of `f64` makes a system in single precision.
 ///
-/// L, R, the force and constraints may take a time `t: f64` after their other parameters. Arguments go by
-/// their place, whatever they are called: q, v, u, t. Any of these names at the place of another is an
+/// L, R, the force, constraints and event functions may take a time `t: f64` after their other parameters.
+/// Arguments go by their place, whatever they are called: q, v, u, t. Any of these names at the place of another is an
 /// error, and so is a number after v that is not called `t` or `time`.
 ///
 /// # Inputs and time

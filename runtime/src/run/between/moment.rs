@@ -79,8 +79,8 @@ where
         }
     }
 
-    /// The values then of the event functions that the block of the system states: `run.watch(|at| at.events())`
-    /// watches for them.
+    /// The values then of the event functions that the block of the system states:
+    /// `run.watch(|at| at.events())` watches for them.
     ///
     /// ```
     /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
