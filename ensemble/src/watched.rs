@@ -13,7 +13,7 @@ use crate::member::{End, Failure, MemberError, Record, caught};
 use crate::stepping::{OneByOne, Plan, Slot, Stepping, one_by_one};
 use crate::study::Study;
 
-/// Each member by its own [`Trajectory`](dalembert::Trajectory), watched for the events that functions vanish.
+/// Each member by its own [`Trajectory`](dalembert::Trajectory), watched for events.
 #[derive(Clone, Copy, Debug)]
 pub struct Watched<M, S, G, const K: usize> {
     method: M,
@@ -27,12 +27,12 @@ impl<'f, F, M, L, const N: usize> Study<'f, F, OneByOne<M, L::Scalar>, L, N>
 where
     L: Flow<M, N>,
 {
-    /// Watches the run of each member for the events that the functions `g` vanish, such as those of its block
-    /// ([`Moment::events`]). An event is a record ([`Record::event`]), between those of the steps; one that is
-    /// `terminal` ends the member, whose last record has its time and state.
+    /// Watches the run of each member for the events that the functions `g` vanish, such as those of its
+    /// block ([`Moment::events`]). An event is a record ([`Record::event`]), between those of the steps; one
+    /// that is `terminal` ends the member, whose last record has its time and state.
     ///
-    /// Members are then stepped one by one, and not in lanes. Steps are those of a run that is not watched, bit
-    /// by bit. Files have a column for events; they do not tell one `g` from another
+    /// Members are then stepped one by one, and not in lanes. Steps are those of a run that is not watched,
+    /// bit by bit. Files have a column for events; they do not tell one `g` from another
     /// ([`metadata`](crate::parts::Parts::metadata)).
     ///
     /// ```

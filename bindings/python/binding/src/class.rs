@@ -159,8 +159,8 @@ impl System {
 
     /// The motion from (q, v), or from (q, p).
     ///
-    /// By steps of one size, `h` with `steps` or `until`, or to a tolerance, `tolerance` with `until`: method and
-    /// step size are then chosen for the motion. The call releases the GIL; Ctrl-C ends it.
+    /// By steps of one size, `h` with `steps` or `until`, or to a tolerance, `tolerance` with `until`: method
+    /// and step size are then chosen for the motion. The call releases the GIL; Ctrl-C ends it.
     ///
     /// Parameters
     /// ----------
@@ -179,8 +179,8 @@ impl System {
     /// t : time at the start, of a system that takes the time; 0 unless said
     /// derivatives : whether records have derivatives by start and parameters
     /// reactions : whether records have λ, of a system with constraints
-    /// events : up to eight functions whose zeros are found, to rounding: each a Plane, a Sphere, an Energy, an
-    ///     Event of the Rust block, or a callable of (t, q, v) that returns a number; with an attribute
+    /// events : up to eight functions whose zeros are found, to rounding: each a Plane, a Sphere, an Energy,
+    ///     an Event of the Rust block, or a callable of (t, q, v) that returns a number; with an attribute
     ///     `direction`, 1 or -1, crossings one way alone count, and one with `terminal` ends the run
     /// progress : callable, called with the steps taken and to take, some twenty times a second
     ///
@@ -247,8 +247,7 @@ impl System {
             stepping = whole(stepping, why)?;
         }
         let timed = times.map(|times| timed(&times, origin, &stepping)).transpose()?;
-        let recorded =
-            timed.as_deref().map_or(Recorded::Every(every.unwrap_or(1)), |times| Recorded::At(times));
+        let recorded = timed.as_deref().map_or(Recorded::Every(every.unwrap_or(1)), Recorded::At);
         let raised = Raised::default();
         let events = watching::functions(py, events, kind, &raised)?;
         let asked = Asked { start: given.start(), stepping, recorded, along, events: &events };

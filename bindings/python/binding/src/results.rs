@@ -245,8 +245,8 @@ impl Run {
         self.t.bind(py).len()
     }
 
-    /// A pandas DataFrame with a row for each record and t as its index: columns q0 …, v0 …, p0 …, energy, and
-    /// reaction0 … where there are reactions.
+    /// A pandas DataFrame with a row for each record and t as its index: columns q0 …, v0 …, p0 …, energy,
+    /// and reaction0 … where there are reactions.
     ///
     /// Raises
     /// ------

@@ -32,7 +32,8 @@ const LONGER: f64 = 1.0 / 1024.0;
 const SAME: f64 = 8.0 * f64::EPSILON;
 
 impl<'a> Given<'a, '_> {
-    /// The steps of a run that starts at the time `origin`, up to the last of `times` where nothing else says.
+    /// The steps of a run that starts at the time `origin`, up to the last of `times` where nothing else says
+    /// so.
     ///
     /// # Errors
     /// `TypeError` where arguments do not go together, `ValueError` where one of them has no such value.

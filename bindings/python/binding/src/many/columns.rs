@@ -14,8 +14,8 @@ pub struct Column {
     pub index: usize,
 }
 
-/// A column for each entry of the fields that differ: named as the field, `c0` and `c1` of an array, `m0_1` of
-/// one with two dimensions; after `field_` where other columns of the file may have that name.
+/// A column for each entry of the fields that differ: named as the field, `c0` and `c1` of an array, `m0_1`
+/// of one with two dimensions; after `field_` where other columns of the file may have that name.
 pub fn columns<F: Fields>(asked: &Asked<'_>, coordinates: usize) -> Vec<Column> {
     let mut taken: Vec<String> = ["member", "t", "energy", "event", "error"].map(str::to_owned).into();
     taken.extend(['q', 'p'].iter().flat_map(|symbol| (0..coordinates).map(move |i| format!("{symbol}{i}"))));
