@@ -14,9 +14,10 @@ const FOLDERS: [(&str, &str); 3] =
 
 /// Rows with an example, by its names, of which each file has one as a word of its own; and how many files
 /// there may be.
-const EXAMPLES: [(&str, &[&str], usize); 5] = [
+const EXAMPLES: [(&str, &[&str], usize); 6] = [
     ("a rule,", &["one_sided", "OneSided"], 7),
     ("a function of the block,", &["constraints", "Constraints", "ConstraintGradients"], 10),
+    ("one of which values alone are asked,", &["events", "Events", "event_functions"], 7),
     ("a function, as", &["cbrt", "Cbrt", "CubeRoot"], 7),
     ("an option,", &["multiply_add", "fused", "fused_multiply_add"], 10),
     ("a method of runs,", &["blanes_moan_6", "BlanesMoan6"], 6),
