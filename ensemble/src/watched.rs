@@ -33,7 +33,7 @@ where
     ///
     /// Members are then stepped one by one, and not in lanes. Steps are those of a run that is not watched,
     /// bit by bit. Files have a column for events; they do not tell one `g` from another
-    /// ([`metadata`](crate::parts::Parts::metadata)).
+    /// (`metadata` of the parts says it).
     ///
     /// ```
     /// use dalembert::{Midpoint, State, rayleigh_system};

@@ -7,6 +7,7 @@ import warnings
 import numpy as np
 import pytest
 from dalembert_scenes import CartPole, HenonHeiles, Plane, Ring, StepError
+from joblib import Parallel, delayed
 
 AT = {"h": 0.1, "steps": 5}
 
@@ -88,6 +89,12 @@ def test_results_are_pickled(tmp_path):
     # Control: others are not equal.
     assert not equal(results[0], results[1]) and not equal(results[3], results[4])
     assert not equal(results[5], results[6]) and not equal(results[7], results[8])
+
+
+def test_runs_come_from_the_workers_of_joblib():
+    ring, starts = Ring(1e-3), [([0.0, 1.0 + 0.01 * k], [0.5, 0.0]) for k in range(4)]
+    runs = Parallel(n_jobs=2)(delayed(ring.run)(h=0.1, until=2.0, q=q, v=v) for q, v in starts)
+    assert all(equal(run, ring.run(h=0.1, until=2.0, q=q, v=v)) for run, (q, v) in zip(runs, starts, strict=True))
 
 
 def test_an_error_of_a_file_has_its_number(tmp_path):
