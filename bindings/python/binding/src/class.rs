@@ -293,9 +293,9 @@ impl System {
     ///
     /// Parameters
     /// ----------
-    /// q, v, p, u, t, h, steps, tolerance, until, rule : as of `run`
+    /// q, v, p, u, t, h, steps, tolerance, until, rule : as of `run`; members take whole steps
     /// every : steps from one record to the next; unless said, the end alone is recorded
-    /// fields : a dict of fields that differ from member to member
+    /// fields : a dict of fields that differ from member to member; in parts they are columns
     /// events : as of `run`; `events` of the result has those of all members, `t` the end of each. Members
     ///     are then run one by one. In parts events are rows among the records, with the function's place in
     ///     the list in the column `event`
