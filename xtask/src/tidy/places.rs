@@ -127,11 +127,11 @@ mod tests {
             .iter()
             .map(|(beginning, ..)| ((*beginning).to_owned(), vec!["a.rs".to_owned()]))
             .collect();
-        let all = "one_sided, Constraints; x.cbrt() is_fused: fused(blanes_moan_6)".to_owned();
+        let all = "one_sided, Constraints; Events; x.cbrt() is_fused: fused(blanes_moan_6)".to_owned();
         assert_eq!(wrong(&rows, &|_| Some(all.clone())).unwrap(), [""; 0]);
         assert_eq!(wrong(&rows, &|_| None).unwrap().len(), EXAMPLES.len());
-        let near =
-            "one_sided_rule onstrain brt cbrtf Operation functions Fused is_fused lanes_moan_6".to_owned();
+        let near = "one_sided_rule onstrain event brt cbrtf Operation functions Fused is_fused lanes_moan_6"
+            .to_owned();
         assert_eq!(wrong(&rows, &|_| Some(near.clone())).unwrap().len(), EXAMPLES.len());
         let mut grown = rows;
         grown[0].1 = vec!["a.rs".to_owned(); EXAMPLES[0].2 + 1];
