@@ -29,7 +29,8 @@
 //! # Ok::<(), dalembert_ensemble::parts::PartsError>(())
 //! ```
 //!
-//! **Columns.** `member`; those of [`column`](Parts::column); `t`; `q0` …, `p0` …; `energy`, at the time of
+//! **Columns.** `member`; those of [`column`](Parts::column) and
+//! [`column_by_number`](Parts::column_by_number); `t`; `q0` …, `p0` …; `energy`, at the time of
 //! the row; `event`, where the members are watched: the function that vanishes there, null of other rows;
 //! `error`, null where there is none. A member that fails has its last good state in its last row, with the
 //! error; one without a start has nulls.
@@ -174,7 +175,17 @@ where
 
     /// A column of what `value` says of a member's system: its fields.
     pub fn column(mut self, name: impl Into<String>, value: impl Fn(&L) -> f64 + Sync + 's) -> Self {
-        self.columns.push((name.into(), Box::new(value)));
+        self.columns.push((name.into(), Box::new(move |_, system| value(system))));
+        self
+    }
+
+    /// A column of what `value` says of a member's number, where its system does not say it.
+    pub fn column_by_number(
+        mut self,
+        name: impl Into<String>,
+        value: impl Fn(u64) -> f64 + Sync + 's,
+    ) -> Self {
+        self.columns.push((name.into(), Box::new(move |number, _| value(number))));
         self
     }
 
@@ -260,7 +271,7 @@ where
     /// The digest of a member of `part` as it starts.
     fn start_of(&self, part: &Range<u64>, number: u64, start: &Start<L, N>) -> u128 {
         let others = |system: &L, state: &State<L::Scalar, N>| {
-            let mut numbers: Vec<f64> = self.columns.iter().map(|(_, value)| value(system)).collect();
+            let mut numbers: Vec<f64> = self.columns.iter().map(|(_, value)| value(number, system)).collect();
             if let Some(states) = starts::sampled(part, number) {
                 numbers.extend(self.study.stepping.at_start(system, state));
                 let v = state.velocity(system).unwrap_or_else(|_| SVector::zeros());

@@ -126,6 +126,14 @@ pub(crate) struct Keeping<V, O, T> {
     pub(crate) together: T,
 }
 
+impl<'f, F, M, L: Lagrangian<N>, const N: usize> Study<'f, F, M, L, N> {
+    /// These members, stepped as `change` makes it of how they are.
+    pub(crate) fn stepped_by<W>(self, change: impl FnOnce(M) -> W) -> Study<'f, F, W, L, N> {
+        let Self { members, stepping, progress, cancel, arrival, of } = self;
+        Study { members, stepping: change(stepping), progress, cancel, arrival, of }
+    }
+}
+
 impl<F, M, L: Lagrangian<N>, const N: usize> Study<'_, F, M, L, N> {
     fn new(members: F, stepping: M) -> Self {
         Self { members, stepping, progress: None, cancel: None, arrival: None, of: PhantomData }
@@ -206,9 +214,7 @@ where
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn in_lanes(self) -> Study<'f, F, SideBySide<M, L::Scalar>, L, N> {
-        let OneByOne { method, plan } = self.stepping;
-        let Self { members, progress, cancel, arrival, of, .. } = self;
-        Study { members, stepping: SideBySide { method, plan }, progress, cancel, arrival, of }
+        self.stepped_by(|OneByOne { method, plan }| SideBySide { method, plan })
     }
 }
 

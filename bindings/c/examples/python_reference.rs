@@ -82,6 +82,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         print("to_error", &RING, run.time(), run.state())?;
     }
 
+    let start = State::from_velocity(&RING, [0.0, 1.15549918674982], [0.5, 0.0])?;
+    let mut run = RING.by(Midpoint, 0.2).run(start);
+    print("until", &RING, 0.0, &start)?;
+    while let Some(step) = run.until(1.5).next() {
+        step?;
+        print("until", &RING, run.time(), run.state())?;
+    }
+    let mut run = RING.by(Midpoint, 0.2).run(start);
+    for sample in run.sample_at([0.0, 0.05, 0.4, 0.41, 0.41, 1.1]) {
+        let sample = sample?;
+        print("times", &RING, sample.time, &sample.state)?;
+    }
+
     let shaken = ShakenOscillator { m: 1.3, k: 2.0, r: 0.1, a: 0.5, omega: 1.7 };
     let view = shaken.at_time(3.0);
     let start = State::from_velocity(&view, [1.0], [0.0])?;

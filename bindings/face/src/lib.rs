@@ -11,6 +11,7 @@ pub use dalembert::system::Described;
 
 mod columns;
 mod constraints;
+mod events;
 mod fields;
 mod interface;
 mod layout;
@@ -19,6 +20,7 @@ mod number;
 
 pub use columns::{ByInput, ByParameters, Column, by_state};
 pub use constraints::{Holding, Multipliers, Reacting, StepMade};
+pub use events::Events;
 pub use fields::{Field, FieldType, Fields};
 pub use interface::{By, Input, Interface, coordinates, start};
 pub use layout::layout;

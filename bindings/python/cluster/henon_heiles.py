@@ -11,17 +11,16 @@ import sys
 
 import numpy as np
 from dalembert_scenes import HenonHeiles
-from dask.distributed import Client, as_completed
 
 SEED, MEMBERS_PER_PART = 1, 16_384
 STEPS = {"h": 0.25, "steps": 4000, "rule": "blanes_moan_6"}
 
 
-def part(first, last, folder):
+def part(first, last, folder, threads=1):
     """The file of the members from `first` to before `last`. Their starts are a function of `first` alone: any worker makes the same."""
     q, v = np.random.default_rng([SEED, first]).uniform(-0.3, 0.3, (2, last - first, 2))
     written = HenonHeiles().ensemble(
-        q=q, v=v, first=first, folder=folder, members_per_part=MEMBERS_PER_PART, threads=1, **STEPS
+        q=q, v=v, first=first, folder=folder, members_per_part=MEMBERS_PER_PART, threads=threads, **STEPS
     )
     return written.paths
 
@@ -33,6 +32,8 @@ def parts(members):
 
 def study(client, members, folder, progress=None):
     """Computes what is missing; the paths of all parts, in order."""
+    from dask.distributed import as_completed
+
     tasks = client.map(part, *zip(*parts(members)), folder=str(folder), pure=False)
     for done, _ in enumerate(as_completed(tasks), start=1):
         if progress:
@@ -41,6 +42,8 @@ def study(client, members, folder, progress=None):
 
 
 if __name__ == "__main__":
+    from dask.distributed import Client
+
     folder, members = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 1_000_000
     with Client(n_workers=2, threads_per_worker=1) as client:
         print(f"dashboard: {client.dashboard_link}")

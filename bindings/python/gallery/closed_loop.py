@@ -36,16 +36,18 @@ def loop(is_held):
 
 
 held, alone = loop(True), loop(False)
+# The pole that is left alone leaves the picture for good when it lies.
+alone = alone[:, : np.argmax(np.abs(alone[2]) > np.pi / 2)]
 figure, (angle, place, force) = plt.subplots(3, 1, sharex=True, figsize=(8, 6.5))
-for name, (t, x, theta, u), style in [("held", held, ["#0072B2", "-"]), ("left alone", alone, ["#D55E00", "--"])]:
+for name, (t, x, theta, u), style in [("held", held, ["#0072B2", "-"]), ("left alone, until it lies", alone, ["#D55E00", "--"])]:
     look = {"color": style[0], "linestyle": style[1], "label": name}
     angle.plot(t, theta, **look)
     place.plot(t, x, **look)
     force.plot(t, u, **look)
-angle.set(ylabel="from upright (rad)", ylim=(-0.6, 1.2), title="A pole released at 0.4 rad is brought upright by a regulator from A and B of the step")
-place.set(ylabel="cart (m)", ylim=(-0.5, 1.5))
+angle.set(ylabel="from upright (rad)", title="A pole released at 0.4 rad is brought upright by a regulator from A and B of the step")
+place.set(ylabel="cart (m)")
 force.set(ylabel="force (N)", xlabel="time (s)")
 figure.legend(*angle.get_legend_handles_labels(), loc="outside lower center", ncols=2)
 figure.savefig(FOLDER / "closed_loop.svg")
 
-assert np.abs(held[1:3, -1]).max() < 0.01 < np.abs(alone[2]).max()
+assert np.abs(held[1:3, -1]).max() < 0.01 < alone[2, -1]

@@ -24,7 +24,7 @@ distance = np.linalg.norm(other.q - one.q, axis=1)
 foretold = apart * np.linalg.norm(one.by_start[:, :2, 0], axis=1)
 small = (distance < 1e-2) & (one.t > 0)
 parting = one.t[distance > 1].min()
-print(f"a radian apart after {parting:.1f} s; until then foretold within {np.abs(foretold / distance - 1)[small].max():.1%}")
+print(f"separated by a radian after {parting:.1f} s; until then foretold within {np.abs(foretold / distance - 1)[small].max():.1%}")
 
 figure, (above, below) = plt.subplots(2, 1, sharex=True)
 for angle, name in enumerate(["upper arm", "lower arm"]):
@@ -32,7 +32,7 @@ for angle, name in enumerate(["upper arm", "lower arm"]):
     above.plot(one.t, one.q[:, angle], color=colour, linestyle="-", label=name)
     above.plot(other.t, other.q[:, angle], color=colour, linestyle=":", label=f"{name}, released 10⁻⁶ rad beside")
 above.axvline(parting, color="gray", linestyle="-", linewidth=0.8)
-above.set(ylabel="angle from below (rad)", title=f"Two double pendulums released 10⁻⁶ rad apart part after {parting:.0f} s")
+above.set(ylabel="angle from below (rad)", title=f"Two double pendulums, released 10⁻⁶ rad beside each other, separate after {parting:.0f} s")
 below.semilogy(one.t, distance, color="black", linestyle="-", label="distance of the two")
 below.semilogy(one.t, foretold, color="#009E73", linestyle="--", label="10⁻⁶ rad times the exact derivative of the run")
 below.axvline(parting, color="gray", linestyle="-", linewidth=0.8)

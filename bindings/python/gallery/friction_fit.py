@@ -49,7 +49,8 @@ print(f"c = {fit.x[0]:.4f} ± {spread[0]:.4f}, {fit.x[1]:.4f} ± {spread[1]:.4f}
 print(f"{fit.nfev} runs; by differences {by_differences.nfev + 2 * by_differences.njev}")
 
 figure, panels = plt.subplots(2, 1, sharex=True)
-before, fitted = pendulum(guess).run(**steps), pendulum(fit.x).run(**steps)
+smooth = steps | {"every": 1}
+before, fitted = pendulum(guess).run(**smooth), pendulum(fit.x).run(**smooth)
 for angle, (panel, name) in enumerate(zip(panels, ["upper arm", "lower arm"])):
     panel.plot(truth.t, measured[:, angle], ".", color="black", markersize=3, linestyle="none", label=f"measured, ±{NOISE} rad")
     panel.plot(before.t, before.q[:, angle], color="#D55E00", linestyle="--", label="first guess, c = 0.2, 0.2 N m s")

@@ -31,9 +31,10 @@ for panel, (energy, nature) in zip(panels, energies.items()):
         (found,) = run.events
         crossings += len(found)
         assert abs(run.energy[-1] - energy) < 1e-6 and np.abs(found.q[:, 0]).max() < 1e-13
-        panel.plot(found.q[:, 1], found.v[:, 1], ",", linestyle="none", color=plt.get_cmap("viridis")(orbit / 26))
+        panel.plot(found.q[:, 1], found.v[:, 1], ".", markersize=1.6, markeredgewidth=0, linestyle="none", color=plt.get_cmap("viridis")(orbit / 26))
     panel.set(title=f"E = {energy:.4f}: {nature}", xlabel="y (dimensionless)")
     print(f"E = {energy:.4f}: {crossings} crossings, to rounding")
 panels[0].set_ylabel("velocity of y (dimensionless)")
 figure.suptitle("Where orbits of Hénon and Heiles' potential cross x = 0, one colour an orbit", x=0.01, ha="left")
-figure.savefig(FOLDER / "poincare.svg")
+# As dots of a picture: ten thousand crossings are many elements of an SVG.
+figure.savefig(FOLDER / "poincare.png", dpi=110)

@@ -31,4 +31,9 @@ impl DoublePendulum {
     fn rayleigh(&self, v: [f64; 2]) -> f64 {
         0.5 * self.c[0] * v[0].powi(2) + 0.5 * self.c[1] * (v[1] - v[0]).powi(2)
     }
+
+    /// The lower mass, at the height of the hinge; the arms, in line.
+    fn events(&self, q: [f64; 2], _v: [f64; 2]) -> [f64; 2] {
+        [self.l[0] * q[0].cos() + self.l[1] * q[1].cos(), (q[1] - q[0]).sin()]
+    }
 }

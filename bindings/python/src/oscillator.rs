@@ -31,4 +31,9 @@ impl ShakenOscillator {
     fn force(&self, _q: [f64; 1], _v: [f64; 1], t: f64) -> [f64; 1] {
         [self.a * (self.omega * t).cos()]
     }
+
+    /// The force, at its full size again.
+    fn events(&self, _q: [f64; 1], _v: [f64; 1], t: f64) -> [f64; 1] {
+        [(0.5 * self.omega * t).sin()]
+    }
 }

@@ -138,7 +138,7 @@ def test_an_error_can_be_asked_for_on_constraints(bob, start):
 def test_what_constraints_do_not_have_is_refused_by_name(bob, start):
     with pytest.raises(ValueError, match="rule: expected one of midpoint, trapezoidal, got blanes_moan_4"):
         bob.run(h=0.01, steps=1, rule="blanes_moan_4", **start)
-    with pytest.raises(ValueError, match="events: .* without derivatives and reactions"):
+    with pytest.raises(ValueError, match="events and times: .* without derivatives and reactions"):
         bob.run(h=0.01, steps=10, reactions=True, events=[Plane(q=[1, 0, 0])], **start)
     with pytest.raises(TypeError, match="Ring has no constraints"):
         Ring(k=1e-3).run(h=0.1, steps=1, q=[0, 1], v=[0, 0], reactions=True)

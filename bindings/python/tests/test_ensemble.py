@@ -245,6 +245,10 @@ def test_parts_are_files_and_those_that_are_there_are_not_computed_again(tmp_pat
         rows = {name: given[name][first : first + 100] for name in ("q", "v")}
         one = ring.ensemble(folder=str(tmp_path / "one"), members_per_part=100, first=first, **(given | rows))
         assert one.written == 1 and [path.name for path in one.paths] == [names[first // 100]]
+    # A field that differs is a column.
+    k = RANDOM.uniform(0.0, 0.1, 250)
+    ring.ensemble(folder=tmp_path / "fields", fields={"k": k}, **given)
+    assert np.array_equal(parquet.read_table(tmp_path / "fields")["k"], k)
     for folder in ("whole", "one"):
         assert {path.name: path.read_bytes() for path in (tmp_path / folder).iterdir()} == written
     # Others are another study's.
@@ -283,6 +287,26 @@ def test_what_does_not_fit_is_said(kind, says, arguments):
 def test_no_members_are_no_rows():
     ends = Ring(0.0).ensemble(h=0.1, steps=5, q=np.zeros((0, 2)), v=[0, 0])
     assert isinstance(ends, Ends) and len(ends) == 0 and ends.q.shape == (0, 2)
+
+
+def test_fields_of_all_shapes_are_columns(tmp_path):
+    c, g = RANDOM.uniform(0, 0.1, (6, 2)), RANDOM.uniform(9, 10, 6)
+    pendulum = DoublePendulum([1, 1], [1, 1], 9.81, [0, 0])
+    at = {"h": 0.1, "steps": 4, "every": 2, "q": [1, 0], "v": [0, 0], "fields": {"c": c, "g": g}, "first": 30}
+    pendulum.ensemble(folder=tmp_path, members_per_part=3, **at)
+    table = parquet.read_table(tmp_path)
+    assert table.column_names == ["member", "c0", "c1", "g", "t", "q0", "q1", "p0", "p1", "energy", "error"]
+    member = np.array(table["member"]) - 30
+    assert len(member) == 18 and np.array_equal(table["c1"], c[member, 1]) and np.array_equal(table["g"], g[member])
+    ends = pendulum.ensemble(**at)
+    assert np.array_equal(np.array(table["q1"]).reshape(6, 3), ends.q[..., 1])
+
+
+def test_members_take_whole_steps():
+    at = {"q": [[0, 1]], "v": [0.1, 0]}
+    assert np.array_equal(Ring(0.0).ensemble(h=0.1, until=0.3, **at).q, Ring(0.0).ensemble(h=0.1, steps=3, **at).q)
+    with pytest.raises(ValueError, match="until: members take whole steps; .* h = 0.0875 fits"):
+        Ring(0.0).ensemble(h=0.09, until=0.35, **at)
 
 
 def test_progress_is_told_and_its_exception_ends_the_ensemble():

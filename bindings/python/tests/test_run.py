@@ -1,13 +1,26 @@
 """Runs: their bits, their arrays, their errors."""
 
 import copy
+import math
 import pickle
+import sys
 import warnings
 
 import dalembert_scenes
 import numpy as np
 import pytest
-from dalembert_scenes import BreachWarning, CartPole, DoublePendulum, HenonHeiles, Ring, ShakenOscillator, StepError, ToleranceError
+from dalembert_scenes import (
+    BreachWarning,
+    CartPole,
+    DoublePendulum,
+    HenonHeiles,
+    Plane,
+    Ring,
+    ShakenOscillator,
+    SphericalPendulum,
+    StepError,
+    ToleranceError,
+)
 
 START = {"q": [0.0, 1.15549918674982], "v": [0.5, 0.0]}
 
@@ -155,6 +168,88 @@ def test_an_error_that_was_passed_is_warned_of():
     assert run.breach.expected > 1e-6 and 0 < run.breach.t < 1000
 
 
+def test_a_run_ends_at_its_time_as_that_of_rust_does(ring, reference):
+    run = ring.run(h=0.2, until=1.5, **START)
+    records = np.column_stack([run.t, run.q, run.v, run.p, run.energy])
+    assert np.array_equal(records.view(np.uint64), of_rust(reference, "until").view(np.uint64))
+    assert run.t[-1] == 1.5 and run.steps == 8
+    # A multiple of h but for rounding takes no step of its own.
+    same = ring.run(h=0.1, until=0.3, **START)
+    assert same.steps == 3 and same.t[-1] == 0.3 and np.array_equal(same.q, ring.run(h=0.1, steps=3, **START).q)
+    back = ring.run(h=-0.2, until=-1.5, **START)
+    assert back.t[-1] == -1.5 and back.steps == 8
+    # The time is that of the system's clock.
+    shaken = ShakenOscillator(m=1.3, k=2.0, r=0.1, a=0.5, omega=1.7)
+    for given in ({"h": 0.1}, {"tolerance": 1e-9}):
+        assert shaken.run(until=4.25, t=3.0, q=[1.0], v=[0.0], **given).t[-1] == pytest.approx(4.25, abs=1e-15)
+    with pytest.raises(ToleranceError, match="Allow more by `max_steps`"):
+        ring.run(tolerance=1e-9, until=1000.0, max_steps=10, **START)
+
+
+@pytest.mark.parametrize("rule", ["midpoint", "gauss_4", "gauss_8", "blanes_moan_6"])
+def test_dense_output_is_the_state_of_a_shorter_last_step(ring, reference, rule):
+    times = [0.0, 0.05, 0.4, 0.41, 0.41, 1.1]
+    run = ring.run(h=0.2, times=times, rule=rule, **START)
+    assert np.array_equal(run.t, times) and run.steps == 6
+    for k, time in enumerate(times[1:], 1):
+        alone = ring.run(h=0.2, until=time, rule=rule, **START)
+        assert run.q[k] == pytest.approx(alone.q[-1], abs=1e-14) and run.p[k] == pytest.approx(alone.p[-1], abs=1e-14)
+        assert run.energy[k] == pytest.approx(alone.energy[-1], abs=1e-14)
+    assert np.array_equal(run.q[0], START["q"])
+    if rule == "midpoint":
+        records = np.column_stack([run.t, run.q, run.v, run.p, run.energy])
+        assert np.array_equal(records.view(np.uint64), of_rust(reference, "times").view(np.uint64))
+
+
+def test_dense_output_keeps_the_tolerance_and_ends_with_events(ring):
+    times = np.linspace(0.0, 20.0, 333)
+    exact = ring.run(h=0.005, times=times, rule="gauss_8", **START)
+    run = ring.run(tolerance=1e-8, times=times, **START)
+    assert np.abs(run.q - exact.q).max() < 1e-8 and run.h > times[1] and run.expected < 1e-8
+    # Control: a straight line between the steps is far away.
+    coarse = ring.run(tolerance=1e-8, until=20.0, **START)
+    between = np.column_stack([np.interp(times, coarse.t, q) for q in coarse.q.T])
+    assert np.abs(between - exact.q).max() > 1e-3
+    # Up to a terminal event, which may come before the last time.
+    stop = Plane([1.0, 0.0], value=0.2, terminal=True)
+    ended = ring.run(tolerance=1e-8, times=times, events=stop, **START)
+    end = ended.events[0].t[0]
+    assert np.array_equal(ended.t, times[times <= end]) and np.array_equal(ended.q, run.q[: len(ended)])
+    back = ring.run(h=-0.2, times=-times, **START)
+    assert np.array_equal(back.t, -times)
+    shaken = ShakenOscillator(m=1.3, k=2.0, r=0.1, a=0.5, omega=1.7)
+    late = shaken.run(h=0.1, until=1e6 + 1.0, t=1e6, times=[1e6, 1e6 + 0.1, 1e6 + 1.0], q=[1.0], v=[0.0])
+    assert len(late) == 3 and np.array_equal(late.q[[0, -1]], shaken.run(h=0.1, until=1e6 + 1.0, t=1e6, q=[1.0], v=[0.0]).q[[0, -1]])
+
+
+def test_a_run_hands_its_records_to_other_packages(ring, monkeypatch):
+    bob = SphericalPendulum(m=1.3, l=0.7, g=9.81, c=0.4)
+    q, v = bob.nearest(q=[0, 0.3, -0.4], v=[0.5, 1, 1])
+    run = bob.run(h=0.01, steps=20, q=q, v=v, reactions=True, derivatives=True)
+    frame = run.to_pandas()
+    assert list(frame.columns) == [*(f"{name}{i}" for name in "qvp" for i in range(3)), "energy", "reaction0"]
+    assert frame.index.name == "t" and np.array_equal(frame.index, run.t) and np.array_equal(frame.q2, run.q[:, 2])
+    data = run.to_xarray()
+    assert np.array_equal(data.q, run.q) and data.by_start.dims == ("t", "state", "start") and data.attrs["h"] == 0.01
+    assert data.energy.sel(t=run.t[7]) == run.energy[7] and data.reactions.shape == (21, 1)
+    figure = run.plot()
+    above, below = figure.axes
+    assert np.array_equal(above.lines[2].get_ydata(), run.q[:, 2]) and below.get_xlabel() == "t"
+    shown = repr(run).splitlines()
+    assert shown[0] == f"Run: 20 steps of 0.01 by midpoint, {run.iterations} iterations"
+    assert "  t              (21,)  0 to 0.2" in shown and "  by_start       (21, 6, 6)" in shown
+    for package in ("pandas", "xarray", "matplotlib.pyplot"):
+        monkeypatch.setitem(sys.modules, package, None)
+    for method in (run.to_pandas, run.to_xarray, run.plot):
+        with pytest.raises(ImportError, match="pandas|xarray|matplotlib"):
+            method()
+
+
+def test_a_module_says_what_it_is():
+    assert dalembert_scenes.__version__.count(".") == 2
+    assert "SphericalPendulum" in dalembert_scenes.__doc__ and "NumPy" in dalembert_scenes.__doc__
+
+
 def test_a_failed_step_has_the_data_of_its_error(ring):
     with pytest.raises(StepError, match="step 0.*no|derivative|singular|NaN") as raised:
         ring.run(h=1e200, steps=5, q=[1.0, 0.0], v=[0.0, 1.0])
@@ -164,14 +259,8 @@ def test_a_failed_step_has_the_data_of_its_error(ring):
     assert error.partial["q"].shape == (1, 2)
     again = pickle.loads(pickle.dumps(error))
     assert again.kind == error.kind and again.data == error.data and str(again) == str(error)
-    with pytest.raises(StepError) as raised:
-        ring.run(h=0.1, steps=5, q=[float("nan"), 0.0], v=[0.0, 1.0])
-    assert raised.value.data == {"quantity": "configuration", "index": 0} and raised.value.p is None
-    with pytest.raises(StepError) as raised:
-        ring.run(h=0.0, steps=5, **START)
-    assert raised.value.kind == "StepSize" and raised.value.data == {"h": 0.0}
     with pytest.raises(ArithmeticError):
-        ring.linearization(h=0.0, **START)
+        ring.linearization(h=1e200, **START)
 
 
 def test_a_run_that_fails_late_leaves_what_it_had():
@@ -190,15 +279,41 @@ def test_a_run_that_fails_late_leaves_what_it_had():
         (ValueError, r"v: expected the shape \(2,\), got \(1, 2\)", {"v": [[0, 1]]}),
         (TypeError, r"q: expected numbers of dtype float64, .* got complex128", {"q": [0, 1j]}),
         (TypeError, r"q: expected numbers of dtype float64, .* got <U1", {"q": ["0", "1"]}),
-        (TypeError, "either v or p", {"p": [0.0, 0.0]}),
+        (ValueError, "q: expected finite numbers, got NaN at index 1", {"q": [0, math.nan]}),
+        (ValueError, "q: expected rows of numbers, of one length", {"q": [[0], [1, 2]]}),
+        (TypeError, r"q: expected numbers, got None \(NoneType\)", {"q": None}),
+        (TypeError, "v and p: give one of them", {"p": [0.0, 0.0]}),
+        (TypeError, "v or p has to be given beside q", {"v": None}),
         (TypeError, "takes no input u", {"u": [0.0]}),
         (TypeError, "does not take the time", {"t": 1.0}),
-        (TypeError, "h and steps, or tolerance and until", {"tolerance": 1e-9}),
-        (TypeError, "h and steps, or tolerance and until", {"steps": None}),
+        (TypeError, "h and tolerance: give one of them", {"tolerance": 1e-9}),
+        (TypeError, "h or tolerance has to be given", {"h": None}),
+        (TypeError, "steps, until .* has to be given beside h", {"steps": None}),
+        (TypeError, "steps: to a tolerance .* is chosen", {"h": None, "tolerance": 1e-9, "until": 1.0}),
+        (TypeError, "until .* has to be given beside tolerance", {"h": None, "steps": None, "tolerance": 1e-9}),
+        (TypeError, "steps and until: with h give one of them", {"until": 1.0}),
+        (ValueError, "h: expected a finite step size other than 0, got 0", {"h": 0}),
+        (TypeError, r"h: expected a number, got '0.1' \(str\)", {"h": "0.1"}),
+        (ValueError, "until: .* goes forwards; expected a time after that, got -1", {"steps": None, "until": -1}),
+        (ValueError, "until: .* goes backwards, as h < 0", {"h": -0.1, "steps": None, "until": 1}),
+        (ValueError, "until: expected a finite time, got inf", {"steps": None, "until": math.inf}),
+        (ValueError, "tolerance: expected a number above 0", {"h": None, "steps": None, "tolerance": 0, "until": 1}),
+        (ValueError, "max_steps: the run takes 5 steps, more than 4", {"max_steps": 4}),
+        (ValueError, "steps: expected a whole number from 0 .*, got -3", {"steps": -3}),
+        (TypeError, r"steps: expected a whole number, got 2.5 \(float\)", {"steps": 2.5}),
+        (ValueError, "every: expected a whole number from 1", {"every": 0}),
+        (TypeError, "times and every: give one of them", {"times": [0.1], "every": 1}),
+        (ValueError, "times: expected them in the order of the run, got 0.1 after 0.2", {"times": [0.2, 0.1]}),
+        (ValueError, "times: the run ends at t = 0.5, before 0.6", {"times": [0.6]}),
+        (ValueError, "times: .* expected a time after that, got -0.1", {"times": [-0.1]}),
+        (ValueError, r"times: expected the shape \(records,\), got \(\)", {"times": 0.1}),
+        (ValueError, "events and times: .* without derivatives", {"times": [0.1], "derivatives": True}),
+        (ValueError, "until: .* whole steps; .* h = 0.1375 fits", {"steps": None, "until": 0.55, "h": 0.14, "derivatives": True}),
+        (TypeError, r"rule: expected a text, got 4 \(int\)", {"rule": 4}),
+        (TypeError, "progress: expected a function", {"progress": 1}),
         (ValueError, "rule: expected one of midpoint, .*, got euler", {"rule": "euler"}),
         (ValueError, "derivatives are those of rules", {"rule": "blanes_moan_4", "derivatives": True}),
         (MemoryError, "larger `every`", {"steps": 10**15}),
-        (OverflowError, "negative", {"steps": -1}),
     ],
 )
 def test_what_does_not_fit_is_said(ring, kind, says, arguments):

@@ -44,6 +44,10 @@ print(Edited(0.01).ensemble(**at, folder=folder, first=first, members_per_part=4
 """
 
 
+def test_a_module_has_the_documentation_that_it_is_given():
+    assert trials.__doc__ == "Systems that misbehave, for tests."
+
+
 def test_an_edited_model_does_not_go_on(tmp_path, request):
     edited = request.config.getoption("edited")
     if edited is None:

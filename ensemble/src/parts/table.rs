@@ -6,8 +6,8 @@ use dalembert::{Lagrangian, State};
 
 use crate::member::caught;
 
-/// A column's name, and its value of a system.
-pub(super) type Column<'s, L> = (String, Box<dyn Fn(&L) -> f64 + Sync + 's>);
+/// A column's name, and its value of a member's number and system.
+pub(super) type Column<'s, L> = (String, Box<dyn Fn(u64, &L) -> f64 + Sync + 's>);
 
 /// One row.
 #[derive(Clone, Debug)]
@@ -35,7 +35,7 @@ impl<const N: usize> Row<N> {
         let energy = |system: &L| state.energy(system);
         Self {
             number,
-            fields: columns.iter().map(|(_, value)| value(system)).collect(),
+            fields: columns.iter().map(|(_, value)| value(number, system)).collect(),
             time: Some(time),
             state: Some([widened(&state.q), widened(&state.p)]),
             // Of a member that panics there is none.

@@ -35,7 +35,7 @@ fn block<'a>(source: &'a Source, options: &Options, report: &mut Report) -> Opti
     };
     let shape = signature::shape(&lagrangian.sig, source.name(), report)?;
     let (mut bodies, mut takes) = (Vec::new(), [None; Part::ALL.len()]);
-    let (mut input, mut constraints) = (None, [None, None]);
+    let (mut input, mut constraints, mut events) = (None, [None, None], None);
     for (part, takes) in Part::ALL.into_iter().zip(&mut takes) {
         let Some(function) = named(part.name()) else { continue };
         let before = report.count();
@@ -44,14 +44,19 @@ fn block<'a>(source: &'a Source, options: &Options, report: &mut Report) -> Opti
         input = input.or(stated.input);
         if let Some(kind) = Part::CONSTRAINTS.iter().position(|&of| of == part) {
             constraints[kind] = stated.result;
+        } else {
+            events = events.or(stated.result);
         }
         let has_right_signature = report.count() == before;
-        bodies.push(Body { function: function.clone(), has_right_signature });
+        if part.entry().is_differentiated {
+            bodies.push(Body { function: function.clone(), has_right_signature });
+        }
     }
     let degrees = |length| Degrees { length, system: source.name().clone() };
     let system = System {
         input: input.map(degrees),
         constraints: constraints.map(|length| length.map(degrees)),
+        events: events.map(degrees),
         ..of_shape(source, source.name(), shape, options, (takes, bodies))
     };
     let generated =
@@ -194,6 +199,7 @@ fn of_shape<'a>(
         takes,
         input: None,
         constraints: [None, None],
+        events: None,
         parameters: options.parameters.clone(),
         second: options.second,
         lanes: options.lanes.clone(),

@@ -68,10 +68,10 @@ fn view_stub(source: &Source) -> Option<TokenStream> {
         |parameter: &FnArg| matches!(parameter, FnArg::Typed(typed) if matches!(&*typed.ty, Type::Array(_)));
     let of_force = after("force", 2).unwrap_or_default();
     let is_driven = of_force.iter().any(is_array);
-    let of_constraints = [after("constraints", 1), after("velocity_constraints", 2)];
+    let others = [after("constraints", 1), after("velocity_constraints", 2), after("events", 2)];
     let is_timed = [after("lagrangian", 2), after("rayleigh", 1), Some(of_force)]
         .iter()
-        .chain(&of_constraints)
+        .chain(&others)
         .flatten()
         .flatten()
         .any(|parameter| !is_array(parameter));

@@ -136,7 +136,9 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
         Source::Block(_) => {
             let all = [Some(q), Some(v), u, t];
             for (part, value) in Part::ALL.into_iter().zip(&mut values) {
-                let Some(takes) = system.takes(part) else { continue };
+                let Some(takes) = system.takes(part).filter(|_| part.entry().is_differentiated) else {
+                    continue;
+                };
                 let arguments = takes.choose(all.clone()).flatten().collect();
                 if part == Part::Rayleigh {
                     lowering.methods.clear();
@@ -174,7 +176,7 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
         let components = components.into_iter().map(|component| lowering.scalar(at, component));
         *roots = Some(components.collect::<Result<Vec<_>>>()?);
     }
-    let [lagrangian, rayleigh, force, time_scale, constraints, velocity_constraints] = roots;
+    let [lagrangian, rayleigh, force, time_scale, constraints, velocity_constraints, _] = roots;
     let number = |roots: Option<Vec<Node>>| roots.and_then(|roots| roots.first().copied());
     let Some(lagrangian) = number(lagrangian) else {
         return refuse(at, "there is no Lagrangian");

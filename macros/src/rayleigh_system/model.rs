@@ -115,6 +115,8 @@ pub struct System<'a> {
     pub input: Option<Degrees>,
     /// The numbers of constraints and of velocity constraints, where there are any.
     pub constraints: [Option<Degrees>; 2],
+    /// The number of event functions, where there are any.
+    pub events: Option<Degrees>,
     /// Fields that the step is differentiated by, as listed: `m`, `c[0]`.
     pub parameters: Vec<Expr>,
     /// Whether the step is differentiated twice.
@@ -218,7 +220,7 @@ impl System<'_> {
     pub fn home_of(&self, part: Part) -> Home {
         let is_timed = |part| self.takes_time(part);
         let needs_view = match part {
-            Part::Lagrangian => is_timed(part),
+            Part::Lagrangian | Part::Events => is_timed(part),
             Part::Rayleigh => is_timed(Part::Lagrangian) || is_timed(part),
             Part::Force | Part::TimeScale => self.has_view(),
             Part::Constraints | Part::VelocityConstraints => Part::CONSTRAINTS.into_iter().any(is_timed),

@@ -10,6 +10,7 @@ pub enum Part {
     TimeScale,
     Constraints,
     VelocityConstraints,
+    Events,
 }
 
 /// A choice of the arguments that there are, which stand in this order.
@@ -64,17 +65,20 @@ pub struct Entry {
     pub parameters: &'static str,
     /// Whether it is a term of the equations of motion.
     pub is_term: bool,
+    /// Whether its body is differentiated: of others the values are asked for alone.
+    pub is_differentiated: bool,
 }
 
 impl Part {
     /// In the order in which their signatures are checked and their bodies lowered.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Lagrangian,
         Self::Rayleigh,
         Self::Force,
         Self::TimeScale,
         Self::Constraints,
         Self::VelocityConstraints,
+        Self::Events,
     ];
 
     /// Constraints, in the order of their rows.
@@ -95,6 +99,7 @@ impl Part {
                 returns: Returns::Number,
                 parameters: "`(&self, q: [f64; N], v: [f64; N])`, and `t: f64` after them if it depends on time",
                 is_term: true,
+                is_differentiated: true,
             },
             Self::Rayleigh => Entry {
                 name: "rayleigh",
@@ -103,6 +108,7 @@ impl Part {
                 returns: Returns::Number,
                 parameters: "`(&self, v: [f64; N])` or `(&self, q: [f64; N], v: [f64; N])`, and `t: f64` after them if it depends on time",
                 is_term: true,
+                is_differentiated: true,
             },
             Self::Force => Entry {
                 name: "force",
@@ -111,6 +117,7 @@ impl Part {
                 returns: Returns::Covector,
                 parameters: "`(&self, q: [f64; N], v: [f64; N])`, and after them an input `u: [f64; M]`, a time `t: f64` or both",
                 is_term: true,
+                is_differentiated: true,
             },
             Self::TimeScale => Entry {
                 name: "time_scale",
@@ -119,6 +126,7 @@ impl Part {
                 returns: Returns::Number,
                 parameters: "`(&self, q: [f64; N])` alone: steps follow the configuration",
                 is_term: false,
+                is_differentiated: true,
             },
             Self::Constraints => Entry {
                 name: "constraints",
@@ -127,6 +135,7 @@ impl Part {
                 returns: Returns::Numbers,
                 parameters: "`(&self, q: [f64; N])`, and `t: f64` after it if they depend on time; `velocity_constraints` hold v",
                 is_term: false,
+                is_differentiated: true,
             },
             Self::VelocityConstraints => Entry {
                 name: "velocity_constraints",
@@ -135,6 +144,16 @@ impl Part {
                 returns: Returns::Numbers,
                 parameters: "`(&self, q: [f64; N], v: [f64; N])`, and `t: f64` after them if they depend on time",
                 is_term: false,
+                is_differentiated: true,
+            },
+            Self::Events => Entry {
+                name: "events",
+                takes: Arguments::Q_V,
+                may_take: Arguments::Q_V_T,
+                returns: Returns::Numbers,
+                parameters: "`(&self, q: [f64; N], v: [f64; N])`, and `t: f64` after them if they depend on time",
+                is_term: false,
+                is_differentiated: false,
             },
         }
     }

@@ -3,6 +3,7 @@
 
 mod constrained;
 mod continuous;
+mod event_functions;
 pub mod expanded;
 mod friction;
 mod fused;
@@ -93,6 +94,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
         .map(|(functions, is_prescribed)| constrained::constrained(system, functions, is_prescribed));
     let constrained_by_parameters =
         functions.constraints_by_parameters.map(|function| constrained::by_parameters(system, function));
+    let event_functions = event_functions::event_functions(system);
     let acting = continuous::acting_force(system, functions.cancelling_terms);
     let forced = system.rules.gauss.then(|| continuous::forced_lagrangian(system, functions.stages));
     let driven = functions.by_input.and_then(|by_input| on_request::driven(system, by_input));
@@ -122,6 +124,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
             #time_scale
             #constrained
             #constrained_by_parameters
+            #event_functions
             #acting
             #forced
             #driven

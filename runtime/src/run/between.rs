@@ -10,6 +10,7 @@ use nalgebra::SVector;
 use crate::numbers::Scalar;
 use crate::rules::Gauss;
 use crate::run::Trajectory;
+use crate::run::checkpoint::is_same;
 pub use crate::run::last_step::LastStep;
 use crate::step::{Flow, State, Step, StepError};
 pub use divisible::{Divisible, Restartable};
@@ -45,7 +46,7 @@ where
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn dense(&mut self) -> Dense<'_, Self, N> {
-        Dense::of(self)
+        Dense::new(self)
     }
 }
 
@@ -84,7 +85,8 @@ pub(super) struct Start<S, const N: usize> {
 const OF_CUBIC: &[f64] = &Gauss::<2>::NODES;
 
 impl<'t, T: Divisible<N> + ?Sized, const N: usize> Dense<'t, T, N> {
-    pub(in crate::run) fn of(run: &'t mut T) -> Self {
+    /// Of `run`, of whatever type, before its next step.
+    pub fn new(run: &'t mut T) -> Self {
         Self { run, start: None }
     }
 }
@@ -114,17 +116,26 @@ impl<T: Divisible<N> + ?Sized, const N: usize> Dense<'_, T, N> {
         self.start.map(|start| [start.time, self.run.time()])
     }
 
+    /// Whether the run has come to `time`, or to within a few roundings of it; not where that is NaN.
+    #[must_use]
+    pub fn has_reached(&self, time: f64) -> bool {
+        let now = self.run.time();
+        let time = on_clock(time, now);
+        if self.run.step_size() < T::Scalar::constant(0.0) { time >= now } else { time <= now }
+    }
+
     /// The state at a time of the last step, to the order of the run: by a step from where the last one
-    /// began. At the ends it is that of the grid, bit by bit.
+    /// began. At the ends it is that of the grid, bit by bit, as at a time that is off the run's clock by no
+    /// more than a few roundings. Before the first step there is the start alone.
     ///
     /// # Errors
     /// [`TimeError::Outside`]; [`TimeError::Step`] where a shorter step has no solution although the whole
     /// one has.
     pub fn state_at(&self, time: f64) -> Result<State<T::Scalar, N>, TimeError> {
-        let start = self.start_before(time)?;
-        if time == self.run.time() {
+        if on_clock(time, self.run.time()) == self.run.time() {
             return Ok(*self.run.state());
         }
+        let start = self.start_before(time)?;
         Ok(self.partial(&start, T::Scalar::constant(time - start.time))?)
     }
 
@@ -255,6 +266,11 @@ impl<T: Divisible<N> + ?Sized, const N: usize> Dense<'_, T, N> {
             }
         }
     }
+}
+
+/// The time, or the clock where they differ by a few roundings of either.
+fn on_clock(time: f64, clock: f64) -> f64 {
+    if is_same(time, clock) { clock } else { time }
 }
 
 /// (q, v) at a share τ of a step, by the cubic with q and v at both ends.

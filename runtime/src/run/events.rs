@@ -196,7 +196,7 @@ where
     /// Watches `run`, of whatever type, for the events that the functions `g` vanish.
     pub fn new(run: &'t mut T, g: G) -> Self {
         Self {
-            dense: Dense::of(run),
+            dense: Dense::new(run),
             g,
             crossings: [Crossing::Either; K],
             terminal: [false; K],
@@ -317,8 +317,9 @@ where
         self.step.take()
     }
 
-    /// The run as it can be looked into.
-    pub(super) fn dense(&self) -> &Dense<'t, T, N> {
+    /// The run as it can be looked into, with its last step.
+    #[must_use]
+    pub fn dense(&self) -> &Dense<'t, T, N> {
         &self.dense
     }
 

@@ -88,7 +88,7 @@ where
 
     /// This run as one that answers for all times of its last step: [`Dense`].
     pub fn dense(&mut self) -> Dense<'_, Self, N> {
-        Dense::of(self)
+        Dense::new(self)
     }
 
     /// The steps up to `end`, where the run then stands: [`Until`]. A control period is one call, of any

@@ -19,15 +19,19 @@ pub trait Described<const N: usize>: Sized + 'static {
     /// The type of λ, the multipliers of all constraints: `[Scalar; CONSTRAINTS]`, or `()` where there are
     /// none.
     type Multipliers;
+    /// The type of the values of all event functions: `[Scalar; EVENTS]`, or `()` where there are none.
+    type Events;
     /// The type that is stepped: the system, or its view with an input and a time.
     type View<'a>: ActingForce<N, Scalar = Self::Scalar>;
 
     /// The length of u.
     const INPUTS: usize;
-    /// Whether L, R or f take the time.
+    /// Whether L, R, f or another function of the block take the time.
     const TAKES_TIME: bool;
     /// The length of λ.
     const CONSTRAINTS: usize;
+    /// The number of event functions.
+    const EVENTS: usize;
     /// The parameters by which steps are differentiated, as listed.
     const PARAMETERS: &'static [&'static str];
 

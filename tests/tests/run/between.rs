@@ -264,9 +264,11 @@ fn times_that_are_none_are_refused() {
     // Positive control: the same times in order.
     let mut run = by.run(START);
     assert_eq!(run.sample_at([0.12, 0.12, 0.15]).filter(|sample| sample.is_ok()).count(), 3);
-    // Before the first step no step can be looked into, and after it no other.
-    let mut dense = run.dense();
-    assert!(matches!(dense.state_at(0.2), Err(TimeError::Outside { .. })));
+    // Before the first step there is the state alone, and after it no other step can be looked into.
+    let (stands, mut dense) = (*run.state(), run.dense());
+    assert!(dense.state_at(0.2) == Ok(stands) && dense.has_reached(0.2) && !dense.has_reached(0.25));
+    assert!(matches!(dense.state_at(0.25), Err(TimeError::Outside { .. })));
+    assert!(matches!(dense.interpolated_at(0.2), Err(TimeError::Outside { .. })));
     dense.next().unwrap().unwrap();
     assert!(dense.state_at(0.25).is_ok() && dense.interpolated_at(0.25).is_ok());
     for time in [0.15, 0.35, f64::NAN] {

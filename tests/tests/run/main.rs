@@ -8,6 +8,7 @@ mod close_pairs;
 mod composition;
 mod driven;
 mod events;
+mod events_of_the_block;
 mod found_by_breaking;
 mod from_rest;
 mod gauss_lanes;

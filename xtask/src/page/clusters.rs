@@ -1,6 +1,6 @@
 //! The study of `docs/clusters.md` by three kinds of cluster, all on this machine: workers of its own,
-//! workers started over SSH, and workers that are jobs of Slurm. Their files have to be the same, byte by
-//! byte.
+//! workers started over SSH, and workers that are jobs of Slurm; and as a Slurm array without Dask. Their
+//! files have to be the same, byte by byte.
 
 use std::fs;
 
@@ -29,12 +29,16 @@ pub fn run(shell: &Shell) -> Result<()> {
         print!("{}", String::from_utf8_lossy(&study.stdout));
         ensure!(study.status.success(), "by {cluster}: {}", String::from_utf8_lossy(&study.stderr));
     }
+    let (array, log) = (home.join("array"), home.join("array-%a.log"));
+    let script = "bindings/python/cluster/array.sbatch";
+    let array = cmd!(shell, "timeout 120 sbatch --wait --array=0-3 --output={log} {script} {array} 200000");
+    array.quiet().ignore_stdout().run()?;
     let here = home.join("here");
-    for other in ["ssh", "slurm"].map(|other| home.join(other)) {
+    for other in ["ssh", "slurm", "array"].map(|other| home.join(other)) {
         cmd!(shell, "diff -r {here} {other}").run()?;
     }
     let parts = slurm::parts(&here)?;
-    println!("by workers here, over SSH and by Slurm: {parts} parts, the same bytes");
+    println!("by workers here, over SSH, by Slurm and by its array: {parts} parts, the same bytes");
     Ok(())
 }
 

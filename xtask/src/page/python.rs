@@ -11,18 +11,33 @@ use super::{clusters, commands, move_home, script, show};
 use crate::tools::NotChecked;
 use crate::{project, python_environment};
 
-const PACKAGES: [&str; 10] = [
+const PACKAGES: [&str; 13] = [
     "asyncssh",
     "dask",
     "dask-jobqueue",
     "distributed",
+    "joblib",
     "matplotlib",
     "mypy",
     "numpy",
+    "pandas",
     "pyarrow",
     "pytest",
     "scipy",
+    "xarray",
 ];
+
+/// Runs the cells of a notebook, one after the other.
+const RUN_NOTEBOOK: &str = "
+import json, sys
+cells = json.load(open(sys.argv[1]))['cells']
+names = {}
+for cell in cells:
+    assert not cell.get('outputs'), 'a notebook is committed without outputs'
+    if cell['cell_type'] == 'code':
+        exec(''.join(cell['source']), names)
+assert 'ends' in names, 'the notebook has lost its cells'
+";
 
 /// Follows both pages, and tests the package that they install.
 pub fn run() -> Result<()> {
@@ -37,7 +52,7 @@ pub fn run() -> Result<()> {
     shell.set_var("CARGO_TARGET_DIR", project::target());
     move_home(&shell, work)?;
 
-    for block in commands("docs/python.md", None, 2)? {
+    for block in commands("docs/python.md", None, 3)? {
         show(&block);
         script(&shell, &block).run()?;
     }
@@ -70,6 +85,8 @@ pub fn run() -> Result<()> {
             cmd!(shell, "python {script} {work}").run()?;
         }
     }
+    let notebook = "bindings/python/gallery/first_steps.ipynb";
+    cmd!(shell, "python -c {RUN_NOTEBOOK} {notebook}").quiet().env("MPLBACKEND", "agg").run()?;
     let allowed = project::root().join("bindings/python/tests/stubtest.allowlist");
     shell.change_dir(work);
     cmd!(shell, "python -m mypy.stubtest dalembert_scenes --allowlist {allowed}").run()?;
@@ -96,7 +113,7 @@ fn environment(shell: &Shell, work: &Path) -> Result<PathBuf> {
 fn of_clusters(shell: &Shell, work: &Path) -> Result<()> {
     let _errors_alone = shell.push_env("DASK_LOGGING__DISTRIBUTED", "error");
     let commands = commands("docs/clusters.md", None, 1)?.concat();
-    let commands: Vec<_> = commands.lines().filter(|line| !line.starts_with("pip")).collect();
+    let commands: Vec<_> = commands.lines().filter(|line| line.starts_with("python")).collect();
     ensure!(commands.len() == 1, "the page on clusters has lost its command");
     show(commands[0]);
     script(shell, &commands[0].replace(" cloud ", &format!(" {}/cloud ", work.display()))).run()?;

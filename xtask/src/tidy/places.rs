@@ -14,9 +14,10 @@ const FOLDERS: [(&str, &str); 3] =
 
 /// Rows with an example, by its names, of which each file has one as a word of its own; and how many files
 /// there may be.
-const EXAMPLES: [(&str, &[&str], usize); 5] = [
+const EXAMPLES: [(&str, &[&str], usize); 6] = [
     ("a rule,", &["one_sided", "OneSided"], 7),
     ("a function of the block,", &["constraints", "Constraints", "ConstraintGradients"], 10),
+    ("one of which values alone are asked,", &["events", "Events", "event_functions"], 7),
     ("a function, as", &["cbrt", "Cbrt", "CubeRoot"], 7),
     ("an option,", &["multiply_add", "fused", "fused_multiply_add"], 10),
     ("a method of runs,", &["blanes_moan_6", "BlanesMoan6"], 6),
@@ -126,11 +127,11 @@ mod tests {
             .iter()
             .map(|(beginning, ..)| ((*beginning).to_owned(), vec!["a.rs".to_owned()]))
             .collect();
-        let all = "one_sided, Constraints; x.cbrt() is_fused: fused(blanes_moan_6)".to_owned();
+        let all = "one_sided, Constraints; Events; x.cbrt() is_fused: fused(blanes_moan_6)".to_owned();
         assert_eq!(wrong(&rows, &|_| Some(all.clone())).unwrap(), [""; 0]);
         assert_eq!(wrong(&rows, &|_| None).unwrap().len(), EXAMPLES.len());
-        let near =
-            "one_sided_rule onstrain brt cbrtf Operation functions Fused is_fused lanes_moan_6".to_owned();
+        let near = "one_sided_rule onstrain event brt cbrtf Operation functions Fused is_fused lanes_moan_6"
+            .to_owned();
         assert_eq!(wrong(&rows, &|_| Some(near.clone())).unwrap().len(), EXAMPLES.len());
         let mut grown = rows;
         grown[0].1 = vec!["a.rs".to_owned(); EXAMPLES[0].2 + 1];

@@ -23,11 +23,21 @@ pub fn array<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<PyReadonlyA
     let py = given.py();
     let numpy = py.import("numpy")?;
     let float64 = numpy::dtype::<f64>(py);
-    let array = numpy.call_method1("asarray", (given,))?;
+    let array = numpy.call_method1("asarray", (given,));
+    let array = array.map_err(|error| {
+        PyValueError::new_err(format!("{name}: expected rows of numbers, of one length; {}", error.value(py)))
+    })?;
     let dtype = array.getattr("dtype")?;
+    let is_one = array.getattr("ndim")?.extract::<usize>()? == 0;
+    if is_one && given.cast::<PyArrayDyn<f64>>().is_err() && !given.is_instance_of::<PyFloat>() {
+        // Of one thing its own words say more than its type in an array.
+        if given.extract::<f64>().is_err() {
+            return Err(expected(name, "numbers", given));
+        }
+    }
     if !numpy.call_method1("can_cast", (&dtype, &float64))?.is_truthy()? {
         return Err(PyTypeError::new_err(format!(
-            "{name}: expected numbers of dtype float64, or of one that it holds; got {dtype}"
+            "{name}: expected numbers of dtype float64, or of one that it holds, got {dtype}"
         )));
     }
     require_exact(name, &array)?;
@@ -87,16 +97,97 @@ fn require_exact(name: &str, array: &Bound<'_, PyAny>) -> PyResult<()> {
     }
 }
 
-/// A vector of `n` numbers.
+/// The number that is given under this name, if one is.
 ///
 /// # Errors
-/// Those of [`array`]; `ValueError` where the shape is another.
+/// `TypeError` where it is none.
+pub fn real(name: &str, given: Option<&Bound<'_, PyAny>>) -> PyResult<Option<f64>> {
+    let of = |given: &Bound<'_, PyAny>| {
+        require_unmasked(name, given)?;
+        given.extract::<f64>().map_err(|_| expected(name, "a number", given))
+    };
+    given.map(of).transpose()
+}
+
+/// The whole number from 0 on that is given under this name, if one is.
+///
+/// # Errors
+/// `TypeError` where it is none, `ValueError` where it is below 0 or does not fit into 64 bits.
+pub fn count(name: &str, given: Option<&Bound<'_, PyAny>>) -> PyResult<Option<u64>> {
+    count_from(0, name, given)
+}
+
+/// The whole number from `least` on that is given under this name, if one is.
+///
+/// # Errors
+/// As of [`count`].
+pub fn count_from(least: u64, name: &str, given: Option<&Bound<'_, PyAny>>) -> PyResult<Option<u64>> {
+    let of = |given: &Bound<'_, PyAny>| {
+        let index = given.py().import("operator")?.call_method1("index", (given,));
+        let index = index.map_err(|_| expected(name, "a whole number", given))?;
+        let number = index.extract::<u64>().ok().filter(|&number| number >= least);
+        number.ok_or_else(|| {
+            PyValueError::new_err(format!(
+                "{name}: expected a whole number from {least} to 2⁶⁴ − 1, got {index}"
+            ))
+        })
+    };
+    given.map(of).transpose()
+}
+
+/// The text that is given under this name, if one is.
+///
+/// # Errors
+/// `TypeError` where it is none.
+pub fn text(name: &str, given: Option<&Bound<'_, PyAny>>) -> PyResult<Option<String>> {
+    let of = |given: &Bound<'_, PyAny>| given.extract().map_err(|_| expected(name, "a text", given));
+    given.map(of).transpose()
+}
+
+/// The error of something else than was expected.
+pub fn expected(name: &str, expected: &str, given: &Bound<'_, PyAny>) -> PyErr {
+    let shown = given.repr().and_then(|shown| shown.extract::<String>());
+    let shown = shown.unwrap_or_else(|_| "an object without a repr".to_owned());
+    let kind = given.get_type().name().map_or_else(|_| String::new(), |name| format!(" ({name})"));
+    PyTypeError::new_err(format!("{name}: expected {expected}, got {shown}{kind}"))
+}
+
+/// Fails where what is given cannot be called.
+///
+/// # Errors
+/// `TypeError`.
+pub fn require_callable(py: Python<'_>, name: &str, given: Option<&Py<PyAny>>) -> PyResult<()> {
+    match given.map(|given| given.bind(py)).filter(|given| !given.is_callable()) {
+        Some(given) => Err(expected(name, "a function", given)),
+        None => Ok(()),
+    }
+}
+
+/// Fails where a number is not finite.
+///
+/// # Errors
+/// `ValueError`.
+pub fn require_finite(name: &str, numbers: &[f64]) -> PyResult<()> {
+    match numbers.iter().enumerate().find(|(_, number)| !number.is_finite()) {
+        Some((index, number)) => Err(PyValueError::new_err(format!(
+            "{name}: expected finite numbers, got {number} at index {index}"
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// A vector of `n` finite numbers.
+///
+/// # Errors
+/// Those of [`array`]; `ValueError` where the shape is another, or a number is not finite.
 pub fn vector(name: &str, given: &Bound<'_, PyAny>, n: usize) -> PyResult<Vec<f64>> {
     let array = array(name, given)?;
     if array.shape() != [n] {
         return Err(of_shape(name, &format!("({n},)"), array.shape()));
     }
-    Ok(numbers(&array))
+    let numbers = numbers(&array);
+    require_finite(name, &numbers)?;
+    Ok(numbers)
 }
 
 /// One row of `n` numbers for each of `rows`, or one for all.
@@ -111,7 +202,9 @@ pub fn rows(name: &str, given: &Bound<'_, PyAny>, rows: u64, n: usize) -> PyResu
         [found, columns] if columns == n && has_rows(found) => {}
         _ => return Err(of_shape(name, &format!("({n},) or ({rows}, {n})"), array.shape())),
     }
-    Ok(numbers(&array))
+    let numbers = numbers(&array);
+    require_finite(name, &numbers)?;
+    Ok(numbers)
 }
 
 /// The input, of as many numbers as the system takes, as `read` has it; `None` where it takes none.
@@ -158,7 +251,8 @@ pub fn numbers(array: &PyReadonlyArrayDyn<'_, f64>) -> Vec<f64> {
 /// The error for an array of another shape.
 pub fn of_shape(name: &str, expected: &str, found: &[usize]) -> PyErr {
     let comma = if found.len() == 1 { "," } else { "" };
-    PyValueError::new_err(format!("{name}: expected the shape {expected}, got ({}{comma})", listed(found)))
+    let expected = if expected == "()" { "one number" } else { &format!("the shape {expected}") };
+    PyValueError::new_err(format!("{name}: expected {expected}, got ({}{comma})", listed(found)))
 }
 
 /// The numbers of a field, row by row, of the type that it has: `like` is one of them.

@@ -3,25 +3,36 @@
 use std::path::PathBuf;
 use std::sync::{PoisonError, RwLock};
 
-use numpy::{PyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyAttributeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
-use crate::arguments::{self, array, entries, input, number, rows, time, vector};
+use crate::arguments::{
+    count, count_from, entries, number, real, require_callable, require_finite, text, time, vector,
+};
 use crate::arrays::to_array;
-use crate::checks::{Affine, Region};
+use crate::checks::Region;
 use crate::ensemble;
 use crate::error::{of_events, of_memory, of_refusal, of_step, warn};
 use crate::linearization::Linearization;
-use crate::model::{Kind, Model, MotionGiven, Run as Asked, Start};
+use crate::model::{Kind, Model, MotionGiven, Run as Asked};
 use crate::motion::{self, Along};
-use crate::offer::{ErrorAsked, Stepping};
-use crate::record::Stop;
+use crate::offer::Stepping;
+use crate::record::{Recorded, Stop};
 use crate::reports::{EnergyLedger, Symmetry};
 use crate::results::{Run, partial};
+use crate::starts::{
+    Pair, StartArguments, States, affine, either, inputs, of_space, require_constraints, states,
+};
+use crate::stepping::{self, timed, whole};
 use crate::watch::{Watch, watched};
 use crate::watching::{self, Raised};
+
+/// Members of a part unless said.
+const MEMBERS_PER_PART: u64 = 65_536;
+
+/// Segments on which symmetries are judged unless said.
+const SAMPLES: usize = 100;
 
 /// Under which name a class has its [`KindObject`].
 pub const KIND: &str = "_kind";
@@ -87,179 +98,6 @@ impl System {
     }
 }
 
-/// The configuration and velocity or momentum of a start, and the inputs.
-struct Given {
-    q: Vec<f64>,
-    other: Vec<f64>,
-    is_velocity: bool,
-    inputs: Vec<f64>,
-    time: f64,
-}
-
-impl Given {
-    fn start(&self) -> Start<'_> {
-        let motion = if self.is_velocity {
-            MotionGiven::Velocity(&self.other)
-        } else {
-            MotionGiven::Momentum(&self.other)
-        };
-        Start { q: &self.q, motion, inputs: &self.inputs, time: self.time }
-    }
-}
-
-/// The arguments of a method of a system that say where it starts.
-struct StartArguments<'a, 'py> {
-    q: &'a Bound<'py, PyAny>,
-    v: Option<&'a Bound<'py, PyAny>>,
-    p: Option<&'a Bound<'py, PyAny>>,
-    u: Option<&'a Bound<'py, PyAny>>,
-    t: Option<f64>,
-    /// For how many steps there may be inputs.
-    steps: u64,
-}
-
-impl StartArguments<'_, '_> {
-    fn read(&self, kind: &dyn Kind) -> PyResult<Given> {
-        let n = kind.coordinates();
-        let (name, given, is_velocity) = match (self.v, self.p) {
-            (Some(v), None) => ("v", v, true),
-            (None, Some(p)) => ("p", p, false),
-            _ => return Err(PyTypeError::new_err("a start is q with either v or p")),
-        };
-        let (inputs, time) = inputs(kind, self.u, self.t, self.steps)?;
-        Ok(Given { q: vector("q", self.q, n)?, other: vector(name, given, n)?, is_velocity, inputs, time })
-    }
-}
-
-/// The inputs, for so many steps at most, and the time, as far as the system takes them.
-fn inputs(
-    kind: &dyn Kind,
-    u: Option<&Bound<'_, PyAny>>,
-    t: Option<f64>,
-    steps: u64,
-) -> PyResult<(Vec<f64>, f64)> {
-    Ok((input(kind, u, |u, length| rows("u", u, steps, length))?.unwrap_or_default(), time(kind, t)?))
-}
-
-/// The times of states, one for all or one for each, of arrays of this shape; of a system that takes none, 0.
-fn times(kind: &dyn Kind, t: Option<&Bound<'_, PyAny>>, shape: &[usize]) -> PyResult<Vec<f64>> {
-    let Some(t) = t else {
-        return match kind.takes_time() {
-            false => Ok(vec![0.0]),
-            true => Err(PyTypeError::new_err(format!(
-                "{} takes the time: give t, that of the state or of each, as the t of its run",
-                kind.name()
-            ))),
-        };
-    };
-    // A system that takes none says so, whatever is given.
-    time(kind, Some(0.0))?;
-    let given = array("t", t)?;
-    if !given.shape().is_empty() && given.shape() != shape {
-        let states: Vec<String> = shape.iter().map(usize::to_string).collect();
-        let expected = format!("one for all, or one for each state, ({})", states.join(", "));
-        return Err(arguments::of_shape("t", &expected, given.shape()));
-    }
-    let times = arguments::numbers(&given);
-    times.iter().try_for_each(|&t| time(kind, Some(t)).map(drop))?;
-    Ok(times)
-}
-
-/// q and v, as arrays of one shape.
-type Pair<'py> = (Bound<'py, PyArrayDyn<f64>>, Bound<'py, PyArrayDyn<f64>>);
-
-/// States, one after the other.
-struct States {
-    /// Their times, or that of all.
-    times: Vec<f64>,
-    q: Vec<f64>,
-    /// Velocities or momenta.
-    other: Vec<f64>,
-    /// The shape of the array in which they are given.
-    shape: Vec<usize>,
-}
-
-/// The states that are given as arrays whose last dimension is n.
-fn states(
-    kind: &dyn Kind,
-    q: &Bound<'_, PyAny>,
-    (name, other): (&str, &Bound<'_, PyAny>),
-    t: Option<&Bound<'_, PyAny>>,
-) -> PyResult<States> {
-    let n = kind.coordinates();
-    let (q, other) = (array("q", q)?, array(name, other)?);
-    if q.shape().last() != Some(&n) {
-        return Err(arguments::of_shape("q", &format!("(…, {n})"), q.shape()));
-    }
-    if q.shape() != other.shape() {
-        let shape: Vec<String> = q.shape().iter().map(usize::to_string).collect();
-        return Err(arguments::of_shape(name, &format!("of q, ({})", shape.join(", ")), other.shape()));
-    }
-    let shape = q.shape()[..q.ndim() - 1].to_vec();
-    let times = times(kind, t, &shape)?;
-    Ok(States { times, q: arguments::numbers(&q), other: arguments::numbers(&other), shape })
-}
-
-/// Translations along each coordinate, and rotations in the plane of each two.
-fn of_space(n: usize) -> Vec<Affine> {
-    let unit = |k: usize| (0..n).map(|i| if i == k { 1.0 } else { 0.0 }).collect::<Vec<_>>();
-    let of = |name, linear, constant| Affine { name, linear, constant, is_optional: true };
-    let translation = |k: usize| of(format!("translation({k})"), vec![0.0; n * n], unit(k));
-    let rotation = |(from, to): (usize, usize)| {
-        let mut linear = vec![0.0; n * n];
-        (linear[to * n + from], linear[from * n + to]) = (1.0, -1.0);
-        of(format!("rotation({from}, {to})"), linear, vec![0.0; n])
-    };
-    let planes = (0..n).flat_map(|from| (from + 1..n).map(move |to| (from, to)));
-    (0..n).map(translation).chain(planes.map(rotation)).collect()
-}
-
-/// Generators as they are given: a name and (A, b) of each.
-fn affine(given: &Bound<'_, PyDict>, n: usize) -> PyResult<Vec<Affine>> {
-    let generator = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
-        let name: String = name.extract()?;
-        let (linear, constant): (Bound<'_, PyAny>, Bound<'_, PyAny>) = value.extract()?;
-        let linear = array(&name, &linear)?;
-        if linear.shape() != [n, n] {
-            return Err(arguments::of_shape(&name, &format!("({n}, {n})"), linear.shape()));
-        }
-        let (linear, constant) = (arguments::numbers(&linear), vector(&name, &constant, n)?);
-        Ok(Affine { name, linear, constant, is_optional: false })
-    };
-    given.iter().map(generator).collect()
-}
-
-/// Fails where there are no constraints.
-fn require_constraints(kind: &dyn Kind) -> PyResult<()> {
-    match kind.constraints() {
-        0 => Err(PyTypeError::new_err(format!(
-            "{} has no constraints: every (q, v) is a state of it, and there are no reactions",
-            kind.name()
-        ))),
-        _ => Ok(()),
-    }
-}
-
-/// The steps that are asked for.
-fn stepping(
-    h: Option<f64>,
-    steps: Option<u64>,
-    tolerance: Option<f64>,
-    until: Option<f64>,
-    rule: Option<&str>,
-) -> PyResult<Stepping<'_>> {
-    match (h, steps, tolerance, until) {
-        (Some(h), Some(steps), None, None) => Ok(Stepping::Fixed { h, steps, rule }),
-        (None, None, Some(tolerance), Some(until)) if rule.is_none() => {
-            Ok(Stepping::ToError(ErrorAsked { tolerance, until }))
-        }
-        (None, None, Some(_), Some(_)) => {
-            Err(PyTypeError::new_err("to a tolerance the method is chosen: leave rule out"))
-        }
-        _ => Err(PyTypeError::new_err("the steps of a run are h and steps, or tolerance and until")),
-    }
-}
-
 /// Does `work` without the interpreter's lock, unless Ctrl-C ends it.
 fn unless_called_off<T: Send>(py: Python<'_>, work: impl FnOnce(&Watch<'_>) -> T + Send) -> PyResult<T> {
     let (result, called_off) = watched(py, &|_, _| Ok(()), work);
@@ -321,24 +159,39 @@ impl System {
 
     /// The motion from (q, v), or from (q, p).
     ///
-    /// By steps of one size, h and steps, or to an error: with a tolerance, in units of q, method and step
-    /// size are chosen for the motion until the time `until` from the start. Python is free to do other
-    /// things meanwhile; Ctrl-C ends the run.
+    /// By steps of one size, `h` with `steps` or `until`, or to a tolerance, `tolerance` with `until`: method
+    /// and step size are then chosen for the motion. The call releases the GIL; Ctrl-C ends it.
     ///
-    /// Parameters ---------- q : configuration, n numbers v : velocity, n numbers, or p : momentum, n numbers
-    /// h, steps : size and number of steps tolerance, until : a tolerance, and until when every : steps from
-    /// one record to the next; start and end are recorded as well rule : one of RULES; the first unless said
-    /// u : the input, or an array with one for each step t : the time at the start, of a system that takes
-    /// it; 0 unless said derivatives : whether records have derivatives by start and parameters reactions :
-    /// whether records have λ, of a system with constraints events : up to eight functions whose zeros are
-    /// found, to rounding: each a Plane, or a callable of (t, q, v) that returns a
-    ///     number; with an attribute `direction`, 1 or -1, crossings one way alone count, and one with `terminal` ends the run
-    /// progress : is called with the steps taken and to take, some twenty times a second
+    /// Parameters
+    /// ----------
+    /// q : configuration, n numbers
+    /// v, p : velocity or momentum, n numbers
+    /// h : step size; below 0 the run goes backwards
+    /// steps : number of steps
+    /// tolerance : bound of the error of q, in units of q
+    /// until : time at the end; where it is no multiple of h the last step is as long as it takes to there
+    /// times : times of the records (dense output), in the order of the run; the last one is the end unless
+    ///     steps or until says so. Each state is of the method's own order, to the tolerance
+    /// every : steps from one record to the next, if there are no times; start and end are recorded as well
+    /// max_steps : limit of the steps; an error before the run where it takes more
+    /// rule : one of RULES; the first unless said
+    /// u : input, or an array with one for each step
+    /// t : time at the start, of a system that takes the time; 0 unless said
+    /// derivatives : whether records have derivatives by start and parameters
+    /// reactions : whether records have λ, of a system with constraints
+    /// events : up to eight functions whose zeros are found, to rounding: each a Plane, a Sphere, an Energy,
+    ///     an Event of the Rust block, or a callable of (t, q, v) that returns a number; with an attribute
+    ///     `direction`, 1 or -1, crossings one way alone count, and one with `terminal` ends the run
+    /// progress : callable, called with the steps taken and to take, some twenty times a second
+    ///
+    /// Returns
+    /// -------
+    /// Run
     ///
     /// Raises
     /// ------
-    /// StepError, ToleranceError, TypeError, ValueError
-    #[pyo3(signature = (*, q, v=None, p=None, h=None, steps=None, tolerance=None, until=None, every=1, rule=None, u=None, t=None, derivatives=false, reactions=false, events=None, progress=None))]
+    /// StepError, ToleranceError, EventError, TypeError, ValueError, MemoryError
+    #[pyo3(signature = (*, q, v=None, p=None, h=None, steps=None, tolerance=None, until=None, times=None, every=None, max_steps=None, rule=None, u=None, t=None, derivatives=false, reactions=false, events=None, progress=None))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn run(
         &self,
@@ -346,43 +199,58 @@ impl System {
         q: &Bound<'_, PyAny>,
         v: Option<&Bound<'_, PyAny>>,
         p: Option<&Bound<'_, PyAny>>,
-        h: Option<f64>,
-        steps: Option<u64>,
-        tolerance: Option<f64>,
-        until: Option<f64>,
-        every: u64,
-        rule: Option<&str>,
+        h: Option<&Bound<'_, PyAny>>,
+        steps: Option<&Bound<'_, PyAny>>,
+        tolerance: Option<&Bound<'_, PyAny>>,
+        until: Option<&Bound<'_, PyAny>>,
+        times: Option<&Bound<'_, PyAny>>,
+        every: Option<&Bound<'_, PyAny>>,
+        max_steps: Option<&Bound<'_, PyAny>>,
+        rule: Option<&Bound<'_, PyAny>>,
         u: Option<&Bound<'_, PyAny>>,
-        t: Option<f64>,
+        t: Option<&Bound<'_, PyAny>>,
         derivatives: bool,
         reactions: bool,
-        events: Option<Vec<Bound<'_, PyAny>>>,
+        events: Option<&Bound<'_, PyAny>>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Run> {
+        require_callable(py, "progress", progress.as_ref())?;
         let model = self.model();
         let kind = model.kind();
         if reactions {
             require_constraints(kind)?;
         }
-        let stepping = stepping(h, steps, tolerance, until, rule)?;
+        let (rule, t) = (text("rule", rule)?, real("t", t)?);
+        let rule = rule.as_deref();
+        let origin = time(kind, t)?;
+        let times = times.map(stepping::times).transpose()?;
+        let every = count_from(1, "every", every)?;
+        if times.is_some() && every.is_some() {
+            return Err(PyTypeError::new_err("times and every: give one of them, not both"));
+        }
+        let stepping = stepping::Given { h, steps, tolerance, until, max_steps, rule };
+        let mut stepping = stepping.read(origin, times.as_deref())?;
         if matches!(stepping, Stepping::ToError(_)) && derivatives {
             return Err(PyTypeError::new_err(
-                "to a tolerance no derivatives are carried along: leave derivatives out",
+                "derivatives: a run to a tolerance carries none along; give h in place of tolerance",
             ));
         }
-        let given = StartArguments { q, v, p, u, t, steps: steps.unwrap_or(0) }.read(kind)?;
-        if steps.is_none() && given.inputs.len() > kind.inputs() {
+        let steps = if let Stepping::Fixed { steps, .. } = stepping { steps } else { 0 };
+        let given = StartArguments { q, v, p, u, t, steps }.read(kind)?;
+        let changes_input = given.inputs.len() > kind.inputs();
+        if matches!(stepping, Stepping::ToError(_)) && changes_input {
             return Err(PyValueError::new_err("u: a run to a tolerance holds one input"));
         }
+        let along = Along { derivatives, reactions };
+        if changes_input || along.is_any() {
+            let why = "a run with an input for each step, derivatives or reactions takes";
+            stepping = whole(stepping, why)?;
+        }
+        let timed = times.map(|times| timed(&times, origin, &stepping)).transpose()?;
+        let recorded = timed.as_deref().map_or(Recorded::Every(every.unwrap_or(1)), Recorded::At);
         let raised = Raised::default();
-        let events = watching::functions(py, events, kind.coordinates(), &raised)?;
-        let asked = Asked {
-            start: given.start(),
-            stepping,
-            every,
-            along: Along { derivatives, reactions },
-            events: &events,
-        };
+        let events = watching::functions(py, events, kind, &raised)?;
+        let asked = Asked { start: given.start(), stepping, recorded, along, events: &events };
         let told = |py: Python<'_>, far: (u64, u64)| {
             progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, far).map(drop))
         };
@@ -404,7 +272,8 @@ impl System {
         }
         let first = kind.rules();
         let rule = rule.or_else(|| first.first().copied()).unwrap_or_default();
-        let run = Run::new(py, ran, n, kind.parameters().len(), h.unwrap_or(f64::NAN), rule)?;
+        let h = if let Stepping::Fixed { h, .. } = stepping { h } else { f64::NAN };
+        let run = Run::new(py, ran, origin, n, kind.parameters().len(), h, rule)?;
         if let Some(breach) = run.breach_text() {
             warn(py, &breach)?;
         }
@@ -424,9 +293,9 @@ impl System {
     ///
     /// Parameters
     /// ----------
-    /// q, v, p, u, t, h, steps, tolerance, until, rule : as of `run`
+    /// q, v, p, u, t, h, steps, tolerance, until, rule : as of `run`; members take whole steps
     /// every : steps from one record to the next; unless said, the end alone is recorded
-    /// fields : a dict of fields that differ from member to member
+    /// fields : a dict of fields that differ from member to member; in parts they are columns
     /// events : as of `run`; `events` of the result has those of all members, `t` the end of each. Members
     ///     are then run one by one. In parts events are rows among the records, with the function's place in
     ///     the list in the column `event`
@@ -439,7 +308,7 @@ impl System {
     /// Returns
     /// -------
     /// Ends, or Parts where there is a folder
-    #[pyo3(signature = (*, q, v=None, p=None, h=None, steps=None, tolerance=None, until=None, every=None, rule=None, u=None, t=None, fields=None, events=None, folder=None, members_per_part=65_536, first=0, threads=None, progress=None))]
+    #[pyo3(signature = (*, q, v=None, p=None, h=None, steps=None, tolerance=None, until=None, every=None, rule=None, u=None, t=None, fields=None, events=None, folder=None, members_per_part=None, first=None, threads=None, progress=None))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn ensemble<'py>(
         &self,
@@ -447,31 +316,40 @@ impl System {
         q: &Bound<'py, PyAny>,
         v: Option<&Bound<'py, PyAny>>,
         p: Option<&Bound<'py, PyAny>>,
-        h: Option<f64>,
-        steps: Option<u64>,
-        tolerance: Option<f64>,
-        until: Option<f64>,
-        every: Option<u64>,
-        rule: Option<&str>,
+        h: Option<&Bound<'py, PyAny>>,
+        steps: Option<&Bound<'py, PyAny>>,
+        tolerance: Option<&Bound<'py, PyAny>>,
+        until: Option<&Bound<'py, PyAny>>,
+        every: Option<&Bound<'py, PyAny>>,
+        rule: Option<&Bound<'py, PyAny>>,
         u: Option<&Bound<'py, PyAny>>,
-        t: Option<f64>,
-        fields: Option<&Bound<'py, PyDict>>,
-        events: Option<Vec<Bound<'_, PyAny>>>,
+        t: Option<&Bound<'py, PyAny>>,
+        fields: Option<&Bound<'py, PyAny>>,
+        events: Option<&Bound<'py, PyAny>>,
         folder: Option<PathBuf>,
-        members_per_part: u64,
-        first: u64,
-        threads: Option<usize>,
+        members_per_part: Option<&Bound<'py, PyAny>>,
+        first: Option<&Bound<'py, PyAny>>,
+        threads: Option<&Bound<'py, PyAny>>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let stepping = stepping(h, steps, tolerance, until, rule)?;
+        require_callable(py, "progress", progress.as_ref())?;
+        let model = self.model();
+        let (rule, t) = (text("rule", rule)?, real("t", t)?);
+        let origin = time(model.kind(), t)?;
+        let stepping = stepping::Given { h, steps, tolerance, until, max_steps: None, rule: rule.as_deref() };
+        let stepping = whole(stepping.read(origin, None)?, "members take")?;
+        let every = count_from(1, "every", every)?;
         if matches!(stepping, Stepping::ToError(_)) && every.is_some() {
             return Err(PyTypeError::new_err(
-                "of members to a tolerance the end alone is recorded: leave every out",
+                "every: of members to a tolerance the end alone is recorded; leave every out",
             ));
         }
-        let model = self.model();
+        let members_per_part = count_from(1, "members_per_part", members_per_part)?;
+        let members_per_part = members_per_part.unwrap_or(MEMBERS_PER_PART);
+        let first = count("first", first)?.unwrap_or(0);
+        let threads = count_from(1, "threads", threads)?.map(|threads| threads as usize);
         let raised = Raised::default();
-        let events = watching::functions(py, events, model.kind().coordinates(), &raised)?;
+        let events = watching::functions(py, events, model.kind(), &raised)?;
         let parts = folder.map(|folder| (folder, members_per_part));
         let given = ensemble::Given {
             q,
@@ -504,16 +382,18 @@ impl System {
     fn linearization(
         &self,
         py: Python<'_>,
-        h: f64,
+        h: &Bound<'_, PyAny>,
         q: &Bound<'_, PyAny>,
         v: Option<&Bound<'_, PyAny>>,
         p: Option<&Bound<'_, PyAny>>,
         u: Option<&Bound<'_, PyAny>>,
-        t: Option<f64>,
-        rule: Option<&str>,
+        t: Option<&Bound<'_, PyAny>>,
+        rule: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Linearization> {
         let model = self.model();
         let kind = model.kind();
+        let (h, t, rule) = (stepping::size(h)?, real("t", t)?, text("rule", rule)?);
+        let rule = rule.as_deref();
         let given = StartArguments { q, v, p, u, t, steps: 1 }.read(kind)?;
         let linearized = model
             .linearized(&given.start(), h, rule)
@@ -543,6 +423,8 @@ impl System {
         let model = self.model();
         require_constraints(model.kind())?;
         let States { times, q, other, shape } = states(model.kind(), q, ("v", v), t)?;
+        require_finite("q", &q)?;
+        require_finite("v", &other)?;
         let found = unless_called_off(py, |watch| model.nearest(&times, [&q, &other], watch))?;
         let [q, v] = found.map_err(|refusal| of_refusal(py, refusal, None, &[]))?;
         let shape = [shape, vec![model.kind().coordinates()]].concat();
@@ -565,11 +447,7 @@ impl System {
         t: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let model = self.model();
-        let (name, other, is_velocity) = match (v, p) {
-            (Some(v), None) => ("v", v, true),
-            (None, Some(p)) => ("p", p, false),
-            _ => return Err(PyTypeError::new_err("a state is q with either v or p")),
-        };
+        let (name, other, is_velocity) = either(v, p)?;
         let States { times, q, other, shape } = states(model.kind(), q, (name, other), t)?;
         let motion = if is_velocity { MotionGiven::Velocity(&other) } else { MotionGiven::Momentum(&other) };
         let energies = unless_called_off(py, |watch| model.energies(&times, &q, motion, watch))?;
@@ -593,23 +471,26 @@ impl System {
     /// low, high, reach : n numbers each
     /// samples : how many segments
     /// generators : a dict of others, ξ(q) = A q + b: name to (A, b)
-    #[pyo3(signature = (*, h, low, high, reach, samples=100, generators=None, u=None, t=None, rule=None))]
+    #[pyo3(signature = (*, h, low, high, reach, samples=None, generators=None, u=None, t=None, rule=None))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn symmetries(
         &self,
         py: Python<'_>,
-        h: f64,
+        h: &Bound<'_, PyAny>,
         low: &Bound<'_, PyAny>,
         high: &Bound<'_, PyAny>,
         reach: &Bound<'_, PyAny>,
-        samples: usize,
+        samples: Option<&Bound<'_, PyAny>>,
         generators: Option<&Bound<'_, PyDict>>,
         u: Option<&Bound<'_, PyAny>>,
-        t: Option<f64>,
-        rule: Option<&str>,
+        t: Option<&Bound<'_, PyAny>>,
+        rule: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Vec<Symmetry>> {
         let model = self.model();
         let kind = model.kind();
+        let (h, t, rule) = (stepping::size(h)?, real("t", t)?, text("rule", rule)?);
+        let rule = rule.as_deref();
+        let samples = count("samples", samples)?.map_or(SAMPLES, |samples| samples as usize);
         let n = kind.coordinates();
         let generators = generators.map_or_else(|| Ok(of_space(n)), |given| affine(given, n))?;
         let (low, high) = (vector("low", low, n)?, vector("high", high, n)?);
@@ -633,17 +514,20 @@ impl System {
     fn energy_ledger(
         &self,
         py: Python<'_>,
-        h: f64,
-        steps: u64,
+        h: &Bound<'_, PyAny>,
+        steps: &Bound<'_, PyAny>,
         q: &Bound<'_, PyAny>,
         v: Option<&Bound<'_, PyAny>>,
         p: Option<&Bound<'_, PyAny>>,
         u: Option<&Bound<'_, PyAny>>,
-        t: Option<f64>,
-        rule: Option<&str>,
+        t: Option<&Bound<'_, PyAny>>,
+        rule: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<EnergyLedger> {
         let model = self.model();
         let kind = model.kind();
+        let (h, t, rule) = (stepping::size(h)?, real("t", t)?, text("rule", rule)?);
+        let rule = rule.as_deref();
+        let steps = count("steps", Some(steps))?.unwrap_or(0);
         let given = StartArguments { q, v, p, u, t, steps: 1 }.read(kind)?;
         let ledger = unless_called_off(py, |watch| model.ledger(&given.start(), h, rule, steps, watch))?;
         let ledger = ledger.map_err(|refusal| of_refusal(py, refusal, rule, &kind.rules()))?;

@@ -12,6 +12,10 @@ from typing_extensions import disjoint_base
 type _Array = npt.NDArray[np.float64]
 type _Numbers = Sequence[float] | Sequence[Sequence[float]] | npt.NDArray[np.floating[Any] | np.integer[Any]]
 
+type _Event = Plane | Sphere | Energy | Event | Callable[[float, _Array, _Array], float]
+
+__version__: str
+
 @final
 class Breach:
     """Where the error expected of a run has passed the tolerance."""
@@ -75,6 +79,56 @@ class Plane:
     @property
     def direction(self) -> float:
         """Which crossings count."""
+    @property
+    def terminal(self) -> bool:
+        """Whether the run ends there."""
+
+@final
+class Sphere:
+    """A sphere in the space of configurations that a run crosses: |q − center| = radius."""
+
+    def __new__(
+        cls, center: Sequence[float], radius: float, *, direction: float = 0.0, terminal: bool = False
+    ) -> Self: ...
+    @property
+    def center(self) -> list[float]:
+        """Its centre."""
+    @property
+    def radius(self) -> float:
+        """Its radius."""
+    @property
+    def direction(self) -> float:
+        """Which crossings count."""
+    @property
+    def terminal(self) -> bool:
+        """Whether the run ends there."""
+
+@final
+class Energy:
+    """An energy v·∂L/∂v − L that a run passes."""
+
+    def __new__(cls, value: float, *, direction: float = 0.0, terminal: bool = False) -> Self: ...
+    @property
+    def value(self) -> float:
+        """The energy."""
+    @property
+    def direction(self) -> float:
+        """Which passages count."""
+    @property
+    def terminal(self) -> bool:
+        """Whether the run ends there."""
+
+@final
+class Event:
+    """An event function of `fn events` in the Rust block of the system, of as many as `EVENTS` says."""
+
+    def __new__(cls, index: int = 0, *, direction: float = 0.0, terminal: bool = False) -> Self: ...
+    @property
+    def index(self) -> int:
+        """Which of them."""
+    @property
+    def direction(self) -> float:
+        """Which zeros count."""
     @property
     def terminal(self) -> bool:
         """Whether the run ends there."""
@@ -181,6 +235,12 @@ class Run:
     @property
     def events(self) -> list[Crossings]:
         """The events of each function that was given."""
+    def to_pandas(self) -> Any:
+        """A pandas DataFrame with a row for each record and t as its index."""
+    def to_xarray(self) -> Any:
+        """An xarray Dataset with the coordinate t."""
+    def plot(self) -> Any:
+        """A figure of matplotlib: q above, the energy below."""
     def __len__(self) -> int: ...
 
 @final
@@ -293,6 +353,7 @@ class System:
     INPUTS: ClassVar[int]
     TAKES_TIME: ClassVar[bool]
     CONSTRAINTS: ClassVar[int]
+    EVENTS: ClassVar[int]
     PARAMETERS: ClassVar[tuple[str, ...]]
     RULES: ClassVar[tuple[str, ...]]
     STRUCTURE: ClassVar[_Structure]
@@ -307,13 +368,15 @@ class System:
         steps: int | None = None,
         tolerance: float | None = None,
         until: float | None = None,
-        every: int = 1,
+        times: Sequence[float] | _Array | None = None,
+        every: int | None = None,
+        max_steps: int | None = None,
         rule: str | None = None,
         u: _Numbers | None = None,
         t: float | None = None,
         derivatives: bool = False,
         reactions: bool = False,
-        events: Sequence[Plane | Callable[[float, _Array, _Array], float]] | None = None,
+        events: _Event | Sequence[_Event] | None = None,
         progress: Callable[[int, int], object] | None = None,
     ) -> Run:
         """The motion from (q, v), or from (q, p)."""
@@ -333,10 +396,10 @@ class System:
         u: _Numbers | None = None,
         t: float | None = None,
         fields: dict[str, Any] | None = None,
-        events: Sequence[Plane | Callable[[float, _Array, _Array], float]] | None = None,
+        events: _Event | Sequence[_Event] | None = None,
         folder: None = None,
-        members_per_part: int = 65_536,
-        first: int = 0,
+        members_per_part: int | None = None,
+        first: int | None = None,
         threads: int | None = None,
         progress: Callable[[int, int], object] | None = None,
     ) -> Ends: ...
@@ -356,10 +419,10 @@ class System:
         u: _Numbers | None = None,
         t: float | None = None,
         fields: dict[str, Any] | None = None,
-        events: Sequence[Plane | Callable[[float, _Array, _Array], float]] | None = None,
+        events: _Event | Sequence[_Event] | None = None,
         folder: str | PathLike[str],
-        members_per_part: int = 65_536,
-        first: int = 0,
+        members_per_part: int | None = None,
+        first: int | None = None,
         threads: int | None = None,
         progress: Callable[[int, int], object] | None = None,
     ) -> Parts:
@@ -383,7 +446,7 @@ class System:
         low: _Numbers,
         high: _Numbers,
         reach: _Numbers,
-        samples: int = 100,
+        samples: int | None = None,
         generators: dict[str, tuple[_Numbers, _Numbers]] | None = None,
         u: _Numbers | None = None,
         t: float | None = None,

@@ -15,7 +15,7 @@ use pyo3::exceptions::{PyOSError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyModule};
 
-use crate::arguments::{self, array, entries_of_members, input, of_shape, time};
+use crate::arguments::{self, array, entries_of_members, expected, input, of_shape, time};
 use crate::arrays::to_array;
 use crate::crossings::Crossings;
 use crate::error::{of_member, of_memory, of_refusal};
@@ -25,6 +25,7 @@ use crate::model::{Kind, Model};
 use crate::offer::Stepping;
 use crate::pickled::{Reduced, reduced};
 use crate::pool;
+use crate::starts::either;
 use crate::watch::PATIENCE;
 use crate::watching::Raised;
 
@@ -133,7 +134,7 @@ pub struct Given<'a, 'py> {
     /// The time.
     pub t: Option<f64>,
     /// Fields that differ.
-    pub fields: Option<&'a Bound<'py, PyDict>>,
+    pub fields: Option<&'a Bound<'py, PyAny>>,
     /// The number of the first member.
     pub first: u64,
     /// The steps.
@@ -189,11 +190,7 @@ enum Results {
 pub fn run<'py>(py: Python<'py>, model: &dyn Model, given: Given<'_, 'py>) -> PyResult<Bound<'py, PyAny>> {
     let kind = model.kind();
     let n = kind.coordinates();
-    let (name, other, is_velocity) = match (given.v, given.p) {
-        (Some(v), None) => ("v", v, true),
-        (None, Some(p)) => ("p", p, false),
-        _ => return Err(PyTypeError::new_err("starts are q with either v or p")),
-    };
+    let (name, other, is_velocity) = either(given.v, given.p)?;
     let (q, other) = (read("q", given.q, n)?, read(name, other, n)?);
     let inputs = input(kind, given.u, |u, length| read("u", u, length))?.unwrap_or_default();
     let time = time(kind, given.t)?;
@@ -265,12 +262,14 @@ fn agree(members: &mut Option<usize>, name: &str, length: Option<usize>) -> PyRe
 
 fn fields(
     model: &dyn Model,
-    given: Option<&Bound<'_, PyDict>>,
+    given: Option<&Bound<'_, PyAny>>,
     members: &mut Option<usize>,
 ) -> PyResult<Vec<FieldOfMembers>> {
     let kind = model.kind();
     let mut fields = Vec::new();
-    for (name, value) in given.into_iter().flatten() {
+    let dict =
+        |given| Bound::cast::<PyDict>(given).map_err(|_| expected("fields", "a dict of arrays", given));
+    for (name, value) in given.map(dict).transpose()?.into_iter().flatten() {
         let name: String = name.extract()?;
         let Some(field) = kind.fields().iter().position(|field| field.name == name) else {
             let all: Vec<&str> = kind.fields().iter().map(|field| field.name).collect();

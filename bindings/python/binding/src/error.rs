@@ -245,7 +245,8 @@ pub fn of_refusal(py: Python<'_>, refusal: Refusal, rule: Option<&str>, rules: &
             "rule: inputs that change, reactions and derivatives are those of rules; got a splitting or none",
         ),
         Refusal::NotWatched => PyValueError::new_err(
-            "events: those of runs that hold one input, without derivatives and reactions; leave the others out",
+            "events and times: those of runs that hold one input, without derivatives and reactions; leave these \
+             out, or ask in another call",
         ),
         Refusal::NotChecked => PyValueError::new_err(
             "rule: symmetries and energies are accounted for by midpoint, trapezoidal, fitted and one_sided rules",
@@ -259,7 +260,11 @@ pub fn of_refusal(py: Python<'_>, refusal: Refusal, rule: Option<&str>, rules: &
             "tolerance: the rules of this system offer no method for a tolerance; give h and steps",
         ),
         Refusal::Tolerance(error) => match classes(py) {
-            Ok(classes) => PyErr::from_type(classes.tolerance.bind(py).clone(), error.to_string()),
+            Ok(classes) => {
+                // The limit has another name here.
+                let text = error.to_string().replace("`at_most`", "`max_steps`");
+                PyErr::from_type(classes.tolerance.bind(py).clone(), text)
+            }
             Err(error) => error,
         },
         Refusal::Start(failure) => of_step(py, &failure, None),

@@ -6,10 +6,10 @@ use dalembert::nalgebra::SVector;
 use dalembert::run::Run;
 use dalembert::run::between::{Divisible, Moment};
 use dalembert::run::events::{Crossing, Event as Happened, EventError, Watch, Watched};
-use dalembert::step::Step;
 use dalembert::{Lagrangian, State, StepError};
 
-use crate::motion::{Motion, measured};
+use crate::between::{BySome, looked_at};
+use crate::motion::{At, Motion, measured};
 
 /// Most functions of one run.
 pub const MOST: usize = 8;
@@ -28,6 +28,17 @@ pub enum Function<'a> {
         /// c.
         value: f64,
     },
+    /// |q − c|² − r², the sign of which is that of the distance from a sphere.
+    Sphere {
+        /// c.
+        center: Vec<f64>,
+        /// r.
+        radius: f64,
+    },
+    /// The energy less a value.
+    Energy(f64),
+    /// One of those that the block of the system states.
+    OfBlock(usize),
     /// Any other.
     Given(Box<Given<'a>>),
 }
@@ -36,6 +47,9 @@ impl fmt::Debug for Function<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Plane { q, v, value } => write!(f, "q·{q:?} + v·{v:?} = {value:?}"),
+            Self::Sphere { center, radius } => write!(f, "|q − {center:?}| = {radius:?}"),
+            Self::Energy(value) => write!(f, "energy = {value:?}"),
+            Self::OfBlock(index) => write!(f, "event function {index} of the block"),
             Self::Given(_) => f.write_str("a function"),
         }
     }
@@ -84,10 +98,6 @@ pub struct Events<'a> {
     pub origin: f64,
 }
 
-/// A run by some method: watching is compiled for a system, not for each of its methods.
-pub(crate) type BySome<'r, L, const N: usize> =
-    dyn Divisible<N, Item = Result<Step<f64, N>, StepError>, Scalar = f64, System = L> + 'r;
-
 /// A run that is watched, while it is recorded.
 struct Watching<'t, 'r, 'e, L: Lagrangian<N, Scalar = f64>, G, const N: usize> {
     watch: Watch<'t, BySome<'r, L, N>, G, N, MOST>,
@@ -96,10 +106,28 @@ struct Watching<'t, 'r, 'e, L: Lagrangian<N, Scalar = f64>, G, const N: usize> {
     end: Option<(f64, State<f64, N>)>,
 }
 
+/// The value at (q, v) of an event function that the block of a system states.
+pub(crate) type OfBlock<L, const N: usize> = fn(&L, &SVector<f64, N>, &SVector<f64, N>, usize) -> f64;
+
+/// [`OfBlock`] of a system; NaN where there are not so many.
+pub(crate) fn of_block<E, L, const N: usize>(
+    system: &L,
+    q: &SVector<f64, N>,
+    v: &SVector<f64, N>,
+    index: usize,
+) -> f64
+where
+    E: dalembert_face::Events<L, N>,
+    L: Lagrangian<N, Scalar = f64>,
+{
+    E::values(system, q, v).as_ref().get(index).copied().unwrap_or(f64::NAN)
+}
+
 /// Records `run` while it is watched for events.
 pub(crate) fn watched<L, const N: usize>(
     run: &mut BySome<'_, L, N>,
     Events { asked, origin }: Events<'_>,
+    of_block: OfBlock<L, N>,
     record: &mut dyn FnMut(&mut dyn Motion<N>),
 ) where
     L: Lagrangian<N, Scalar = f64>,
@@ -114,6 +142,12 @@ pub(crate) fn watched<L, const N: usize>(
                     let of_v = if by_v.is_empty() { 0.0 } else { dot(by_v, v().as_slice()) };
                     dot(q, at.q.as_slice()) + of_v - value
                 }
+                Function::Sphere { center, radius } => {
+                    let squares = center.iter().zip(at.q.as_slice()).map(|(c, q)| (q - c) * (q - c));
+                    squares.sum::<f64>() - radius * radius
+                }
+                Function::Energy(value) => at.ask(|system| system.energy(&at.q, &v())) - value,
+                Function::OfBlock(index) => at.ask(|system| of_block(system, &at.q, &v(), *index)),
                 Function::Given(function) => function(origin + at.time, at.q.as_slice(), v().as_slice()),
             };
         }
@@ -159,5 +193,15 @@ where
         let run = self.watch.run();
         Divisible::system(run)
             .later(self.time() - Divisible::since(run), |system| measured(system, self.state()))
+    }
+
+    fn at(&self, time: f64) -> Option<Result<At<N>, StepError>> {
+        let dense = self.watch.dense();
+        // The step of a terminal event goes further.
+        let is_past_end = self.end.is_some_and(|(end, _)| match Divisible::step_size(dense.run()) {
+            h if h < 0.0 => time < end,
+            _ => time > end,
+        });
+        if is_past_end { None } else { looked_at(dense, time) }
     }
 }

@@ -8,8 +8,8 @@
 //! | in Python | |
 //! |---|---|
 //! | `ring = Ring(k=1e-3)` | a class a system, its fields attributes with their documentation |
-//! | `ring.run(h=0.1, steps=1000, q=…, v=…)` | the motion: arrays `t`, `q`, `v`, `p`, `energy` |
-//! | `ring.run(tolerance=1e-9, until=100.0, q=…, v=…)` | the same to a tolerance |
+//! | `ring.run(h=0.1, until=100.0, q=…, v=…)` | the motion: arrays `t`, `q`, `v`, `p`, `energy` |
+//! | `ring.run(tolerance=1e-9, times=…, q=…, v=…)` | to a tolerance, at given times (dense output) |
 //! | `ring.ensemble(h=0.1, steps=1000, q=…, v=…)` | many members on all cores: arrays, or Parquet files that are their own checkpoint |
 //! | `ring.linearization(h=0.1, q=…, v=…)` | a step with A, B and derivatives by parameters |
 //! | `ring.energy(q=…, v=…)` | energies |
@@ -31,6 +31,8 @@ pub use pyo3;
 mod arguments;
 mod arrays;
 #[doc(hidden)]
+pub mod between;
+#[doc(hidden)]
 pub mod checks;
 mod class;
 mod crossings;
@@ -41,6 +43,8 @@ mod error;
 #[doc(hidden)]
 pub mod events;
 mod linearization;
+#[doc(hidden)]
+pub mod look;
 #[doc(hidden)]
 pub mod many;
 #[doc(hidden)]
@@ -59,6 +63,8 @@ pub mod record;
 pub mod refusal;
 mod reports;
 mod results;
+mod starts;
+mod stepping;
 mod structure;
 mod stub;
 #[doc(hidden)]
@@ -102,16 +108,18 @@ mod watching;
 /// # fn main() {}
 /// ```
 ///
-/// The name is that of the library, which Python imports.
+/// The name is that of the library, which Python imports. A doc comment before it is the documentation of the
+/// module, whose `__version__` is that of the crate.
 /// Systems are in `f64`; the attribute has described them.
 #[macro_export]
 macro_rules! module {
-    ($name:ident { $($system:ident),+ $(,)? }) => {
+    ($(#[$about:meta])* $name:ident { $($system:ident),+ $(,)? }) => {
         /// The type that `System` is implemented for: the systems may be of another crate.
         struct DalembertPython<S>(::core::marker::PhantomData<S>);
 
         $($crate::system! { DalembertPython $system })+
 
+        $(#[$about])*
         #[$crate::pyo3::pymodule(gil_used = false)]
         #[pyo3(crate = "dalembert_python::pyo3")]
         fn $name(
@@ -120,7 +128,7 @@ macro_rules! module {
             static KINDS: &[&dyn $crate::model::Kind] = &[
                 $(&$crate::model::KindOf::<DalembertPython<$system>, _>(::core::marker::PhantomData),)+
             ];
-            $crate::module::fill(module, KINDS)
+            $crate::module::fill(module, KINDS, env!("CARGO_PKG_VERSION"))
         }
     };
 }
@@ -143,6 +151,7 @@ macro_rules! system {
                 type Input = <$system as Described<N>>::Input;
                 type Parameters = <$system as Described<N>>::Parameters;
                 type Multipliers = <$system as Described<N>>::Multipliers;
+                type Events = <$system as Described<N>>::Events;
                 type View<'a> = <$system as Described<N>>::View<'a>;
 
                 fn view<'a>(fields: &'a $system, u: &[f64], t: f64) -> Self::View<'a> {

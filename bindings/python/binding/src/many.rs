@@ -1,5 +1,6 @@
 //! An ensemble of a system: what is asked of it, and what is kept.
 
+mod columns;
 mod identity;
 
 use core::ops::ControlFlow;
@@ -8,6 +9,7 @@ use std::collections::TryReserveError;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
+use columns::{Column, columns, in_column};
 use dalembert::nalgebra::SVector;
 use dalembert::{Lagrangian, State, StepError};
 use dalembert_ensemble::parts::{self, PartsError};
@@ -193,7 +195,7 @@ fn by_some<'a, S: Offers<N>, const N: usize>(
     control: &'a Control<'_>,
 ) -> Result<BySome<'a, S::View<'a>, N>, Refusal> {
     let steps = match asked.stepping {
-        Stepping::Fixed { h, steps, rule } => {
+        Stepping::Fixed { h, steps, rule, .. } => {
             let plan = Plan { h, steps, every: asked.every.map(|every| every.max(1)), error: None };
             Unwatched::Fixed(S::offered(rule)?.steps.ok_or(Refusal::Rule)?, plan)
         }
@@ -284,7 +286,14 @@ pub fn written<S: Offers<N>, const N: usize>(
     let study = study::<S, N>(&fields, asked, control)?;
     let digest = |number: u64| digest(&fields, asked, (number - asked.first) as usize);
     let parts = study.parts(folder).members_per_part(members_per_part).identified_by(digest);
-    let parts = parts.made_within(asked.first..last).metadata("dalembert.model", model::<S, N>());
+    let mut parts = parts.made_within(asked.first..last).metadata("dalembert.model", model::<S, N>());
+    for Column { name, field, index } in columns::<S::Fields>(asked, N) {
+        let (fields, first) = (&fields, asked.first);
+        let value = move |number: u64| {
+            fields[(number - first) as usize].entry(field, index).map_or(f64::NAN, in_column)
+        };
+        parts = parts.column_by_number(name, value);
+    }
     let counts = parts.write(asked.first..last).map_err(|error| match error {
         PartsError::Cancelled(_) => NoResult::Cancelled,
         error => NoResult::Parts(error),

@@ -11,10 +11,11 @@ use dalembert_face::{Described, Field, Fields, Holding, Number};
 
 use crate::checks::{Affine, Ledger, Region, Symmetry};
 use crate::events::{Event, Events};
+use crate::look::Look;
 use crate::many::{self, Asked, Control, Kept, NoResult, Written};
 use crate::motion::{Along, Given, Motion, measured};
 use crate::offer::{Offer, Offers, Stepping};
-use crate::record::{Failure, Guarded, Plan, Record, Stop};
+use crate::record::{Failure, Guarded, Plan, Record, Recorded, Stop};
 use crate::refusal::Refusal;
 use crate::watch::Watch;
 
@@ -34,6 +35,8 @@ pub trait Kind: Send + Sync {
     fn takes_time(&self) -> bool;
     /// The number of constraints.
     fn constraints(&self) -> usize;
+    /// The number of event functions that its block states.
+    fn events(&self) -> usize;
     /// The parameters by which steps are differentiated.
     fn parameters(&self) -> &'static [&'static str];
     /// The methods by which it is stepped, as `rule=` calls them.
@@ -166,8 +169,8 @@ pub struct Run<'a> {
     pub start: Start<'a>,
     /// Its steps.
     pub stepping: Stepping<'a>,
-    /// Steps from one record to the next.
-    pub every: u64,
+    /// The states that are recorded.
+    pub recorded: Recorded<'a>,
     /// Questions that it answers along its way.
     pub along: Along,
     /// Events to look for on the way.
@@ -235,6 +238,10 @@ impl<S: Offers<N>, const N: usize> Kind for KindOf<S, N> {
         S::Fields::CONSTRAINTS
     }
 
+    fn events(&self) -> usize {
+        S::Fields::EVENTS
+    }
+
     fn parameters(&self) -> &'static [&'static str] {
         S::Fields::PARAMETERS
     }
@@ -297,23 +304,27 @@ impl<S: Offers<N>, const N: usize> Model for ModelOf<S, N> {
     }
 
     fn run(&self, run: &Run<'_>, watch: &Watch<'_>) -> Result<Ran, Refusal> {
-        let Run { start: given, stepping, every, along, events: asked } = run;
+        let Run { start: given, stepping, recorded, along, events: asked } = run;
         let start = self.state(given)?;
         let origin = given.time;
         let events = (!asked.is_empty()).then_some(Events { asked, origin });
+        let look = Look { events, is_dense: matches!(recorded, Recorded::At(_)), end: None };
         let mut ran = (Record::default(), None);
+        let ends_by_itself = matches!(stepping, Stepping::Fixed { end: Some(_), .. });
         let mut record = |motion: &mut dyn Motion<N>, steps| {
-            ran = Record::of(motion, &Plan { steps, every: *every, origin, events: asked.len() }, watch);
+            let plan = Plan { steps, ends_by_itself, recorded: *recorded, origin, events: asked.len() };
+            ran = Record::of(motion, &plan, watch);
         };
         let mut guarded = None;
         match *stepping {
-            Stepping::Fixed { h, steps: count, rule } => {
+            Stepping::Fixed { h, steps: count, end, rule } => {
                 let mut record = |motion: &mut dyn Motion<N>| record(motion, count);
                 let Offer { steps, driven, .. } = S::offered(rule)?;
+                let look = Look { end, ..look };
                 if given.inputs.len() == S::Fields::INPUTS && !along.is_any() {
                     let steps = steps.ok_or(Refusal::Rule)?;
-                    steps.run(&self.view(given), h, &start, events, &mut record);
-                } else if events.is_some() {
+                    steps.run(&self.view(given), h, &start, look, &mut record);
+                } else if look.is_any() {
                     return Err(Refusal::NotWatched);
                 } else {
                     let driven = driven.ok_or(Refusal::NotDriven)?;
@@ -325,7 +336,7 @@ impl<S: Offers<N>, const N: usize> Model for ModelOf<S, N> {
                 let steps = S::to_error()?;
                 let is_called_off = || watch.is_called_off();
                 let told = Told::when(&is_called_off);
-                let run = steps.run(&self.view(given), asked, &start, events, &mut record, told);
+                let run = steps.run(&self.view(given), asked, &start, look, &mut record, told);
                 guarded = Some(run?);
             }
         }

@@ -10,12 +10,27 @@ use crate::structure;
 use crate::stub::{lines, stub_of};
 use crate::{ensemble, error, reports, results, watching};
 
-/// Fills `module`.
+/// The documentation of a module that has none of its own.
+const DOCUMENTATION: &str = "Mechanical systems with friction, by dalembert: SYSTEMS.
+
+A system is made of its fields, as help() of its class lists them. Its methods are run, ensemble, linearization,
+energy, nearest, symmetries and energy_ledger; their results have NumPy arrays.";
+
+/// Fills `module`, of a package of this version.
 ///
 /// # Errors
 /// Those of Python.
-pub fn fill(module: &Bound<'_, PyModule>, kinds: &'static [&'static dyn Kind]) -> PyResult<()> {
+pub fn fill(
+    module: &Bound<'_, PyModule>,
+    kinds: &'static [&'static dyn Kind],
+    version: &str,
+) -> PyResult<()> {
     let py = module.py();
+    module.add("__version__", version)?;
+    if !module.getattr("__doc__")?.is_truthy()? {
+        let names: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
+        module.setattr("__doc__", DOCUMENTATION.replace("SYSTEMS", &names.join(", ")))?;
+    }
     // Ctrl-C raises its exception here. Where the first array is made, importing NumPy panics of it.
     py.import("numpy")?;
     error::add_to(module)?;
@@ -46,6 +61,7 @@ fn class<'py>(module: &Bound<'py, PyModule>, kind: &'static dyn Kind) -> PyResul
     namespace.set_item("INPUTS", kind.inputs())?;
     namespace.set_item("TAKES_TIME", kind.takes_time())?;
     namespace.set_item("CONSTRAINTS", kind.constraints())?;
+    namespace.set_item("EVENTS", kind.events())?;
     namespace.set_item("PARAMETERS", PyTuple::new(py, kind.parameters())?)?;
     namespace.set_item("RULES", PyTuple::new(py, kind.rules())?)?;
     namespace.set_item("STRUCTURE", structure::to_dict(py, &kind.structure())?)?;

@@ -11,6 +11,17 @@ use dalembert_face::{ByParameters, Described, Reacting, StepMade};
 use crate::derivatives::Dependence;
 use crate::system::System;
 
+/// A state between the steps, with its velocity and energy.
+#[derive(Clone, Copy, Debug)]
+pub struct At<const N: usize> {
+    /// The state.
+    pub state: State<f64, N>,
+    /// Its velocity.
+    pub v: SVector<f64, N>,
+    /// Its energy.
+    pub energy: f64,
+}
+
 /// A run while it is recorded.
 pub trait Motion<const N: usize> {
     /// Takes a step, or goes on to an event of the one that follows. `None` where the run has ended.
@@ -27,6 +38,12 @@ pub trait Motion<const N: usize> {
     /// # Errors
     /// Those of [`State::velocity`].
     fn measured(&self) -> Result<(SVector<f64, N>, f64), StepError>;
+
+    /// The state at a time of the last step; `None` where the run has not come so far, or is not looked into.
+    fn at(&self, time: f64) -> Option<Result<At<N>, StepError>> {
+        let _ = time;
+        None
+    }
 
     /// How it follows the start and the parameters, where that is carried along.
     fn dependence(&self) -> Option<&Dependence<N>> {

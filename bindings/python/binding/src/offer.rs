@@ -4,14 +4,15 @@ use core::marker::PhantomData;
 
 use dalembert::run::{Discretise, DrivenTrajectory, Stop};
 use dalembert::step::{ClosedForm, Discrete, Flow, FlowInLanes, ForceWork, Linearizable, Memory, Step};
-use dalembert::tolerance::{OffersMethods, ToleranceError};
+use dalembert::tolerance::{OffersMethods, TimedRequest, ToleranceError};
 use dalembert::{State, StepError};
 use dalembert_ensemble::{OneByOne, Plan, SideBySide, ToError};
 use dalembert_face::{ByInput, ByParameters, Column, Reacting};
 
 use crate::checks::{self, Checks};
 use crate::derivatives::{column_rows, matrix_rows};
-use crate::events::{Events, watched};
+use crate::events::{Events, of_block};
+use crate::look::{Look, looked_into, seen};
 use crate::motion::{Along, Given, Motion, Of, StepByStep};
 use crate::record::Guarded;
 use crate::refusal::Refusal;
@@ -78,14 +79,7 @@ pub struct StepDerivatives<const N: usize> {
 /// Steps by one method.
 pub trait Steps<S: System<N>, const N: usize>: Send + Sync {
     /// A run from `start`, with one input held.
-    fn run(
-        &self,
-        system: &S::View<'_>,
-        h: f64,
-        start: &State<f64, N>,
-        events: Option<Events<'_>>,
-        record: Record<'_, N>,
-    );
+    fn run(&self, system: &S::View<'_>, h: f64, start: &State<f64, N>, look: Look<'_>, record: Record<'_, N>);
 
     /// The runs of many.
     fn together<'a>(&self, plan: Plan<f64>) -> Box<dyn Together<S::View<'a>, N> + 'a>;
@@ -127,12 +121,26 @@ pub trait DrivenSteps<S: System<N>, const N: usize>: Send + Sync {
     ) -> Result<StepDerivatives<N>, StepError>;
 }
 
-/// A tolerance, in units of q, and until which time from the start.
+/// A tolerance that a run keeps.
 #[derive(Clone, Copy, Debug)]
-#[allow(missing_docs)]
 pub struct ErrorAsked {
+    /// The tolerance, in units of q.
     pub tolerance: f64,
+    /// The time at the end, from the start.
     pub until: f64,
+    /// The limit of its steps; that of the runtime if none is given.
+    pub most: Option<u64>,
+}
+
+impl ErrorAsked {
+    /// The request to `system`.
+    fn of<L: OffersMethods<N>, const N: usize>(self, system: &L) -> TimedRequest<'_, L, L::Methods> {
+        let request = system.to_error(self.tolerance).until(self.until);
+        match self.most {
+            Some(most) => request.at_most(most),
+            None => request,
+        }
+    }
 }
 
 /// The steps that a run takes.
@@ -144,6 +152,8 @@ pub enum Stepping<'a> {
         h: f64,
         /// How many.
         steps: u64,
+        /// The time at the end, from the start, where the last of them is as long as it takes to there.
+        end: Option<f64>,
         /// By which rule; the first of the system if none is named.
         rule: Option<&'a str>,
     },
@@ -163,7 +173,7 @@ pub trait StepsToError<S: System<N>, const N: usize>: Send + Sync {
         system: &S::View<'_>,
         asked: ErrorAsked,
         start: &State<f64, N>,
-        events: Option<Events<'_>>,
+        look: Look<'_>,
         record: &mut dyn FnMut(&mut dyn Motion<N>, u64),
         stop: Stop<'_>,
     ) -> Result<Guarded, ToleranceError>;
@@ -262,10 +272,10 @@ where
         system: &S::View<'_>,
         h: f64,
         start: &State<f64, N>,
-        events: Option<Events<'_>>,
+        look: Look<'_>,
         record: Record<'_, N>,
     ) {
-        Steps::<S, N>::run(&By(self.0), system, h, start, events, record);
+        Steps::<S, N>::run(&By(self.0), system, h, start, look, record);
     }
 
     fn together<'a>(&self, plan: Plan<f64>) -> Box<dyn Together<S::View<'a>, N> + 'a> {
@@ -306,13 +316,14 @@ where
         system: &S::View<'_>,
         h: f64,
         start: &State<f64, N>,
-        events: Option<Events<'_>>,
+        look: Look<'_>,
         record: Record<'_, N>,
     ) {
         let mut run = system.by(self.0, h).run(*start);
-        match events {
-            None => record(&mut Of { system, run: &mut run }),
-            Some(events) => watched(&mut run, events, record),
+        if look.is_any() {
+            looked_into(&mut run, look, of_block::<S::Events, _, N>, record);
+        } else {
+            record(&mut Of { system, run: &mut run });
         }
     }
 
@@ -429,17 +440,17 @@ where
         system: &S::View<'_>,
         asked: ErrorAsked,
         start: &State<f64, N>,
-        events: Option<Events<'_>>,
+        look: Look<'_>,
         record: &mut dyn FnMut(&mut dyn Motion<N>, u64),
         stop: Stop<'_>,
     ) -> Result<Guarded, ToleranceError> {
-        let request = system.to_error(asked.tolerance).until(asked.until).stopped_by(stop);
-        let choice = request.choice(start)?;
+        let choice = asked.of(system).stopped_by(stop).choice(start)?;
         let mut run = choice.trajectory();
         let steps = choice.steps();
-        match events {
-            None => record(&mut Of { system, run: &mut run }, steps),
-            Some(events) => watched(&mut run, events, &mut |motion| record(motion, steps)),
+        if look.is_any() {
+            seen(&mut run, look.events, of_block::<S::Events, _, N>, &mut |motion| record(motion, steps));
+        } else {
+            record(&mut Of { system, run: &mut run }, steps);
         }
         Ok(Guarded {
             method: choice.method().to_string(),
@@ -458,10 +469,11 @@ where
         record: &mut dyn FnMut(&mut dyn Motion<N>, u64) -> Option<StepError>,
         stop: Stop<'_>,
     ) -> Result<(), ToleranceError> {
-        let request = system.to_error(asked.tolerance).until(asked.until).stopped_by(stop);
-        let reached = request.end_followed(start, |run| {
+        let reached = asked.of(system).stopped_by(stop).end_followed(start, |run| {
             let (steps, mut failure) = (run.choice().steps(), None);
-            watched(run, events, &mut |motion| failure = record(motion, steps));
+            seen(run, Some(events), of_block::<S::Events, _, N>, &mut |motion| {
+                failure = record(motion, steps);
+            });
             failure.map_or(Ok(()), Err)
         });
         reached.map(drop)

@@ -2,28 +2,49 @@
 
 use std::collections::TryReserveError;
 
-use dalembert::StepError;
+use dalembert::nalgebra::SVector;
 use dalembert::run::Stop as Told;
 use dalembert::run::events::{EventError, Watched};
 use dalembert::tolerance::Breach;
+use dalembert::{State, StepError};
 
 use crate::derivatives::{column_rows, matrix_rows};
 use crate::events::Found;
-use crate::motion::Motion;
+use crate::motion::{At, Motion};
 pub use crate::refusal::Failure;
 use crate::watch::Watch;
 
-/// Which steps are recorded, of how many.
+/// The records that are asked of a run.
 #[derive(Clone, Copy, Debug)]
-pub struct Plan {
-    /// Steps in all.
+pub struct Plan<'a> {
+    /// Steps in all, or about as many of a run that ends by itself.
     pub steps: u64,
-    /// Steps from one record to the next; the last one is recorded as well.
-    pub every: u64,
+    /// Whether it does.
+    pub ends_by_itself: bool,
+    /// Which states.
+    pub recorded: Recorded<'a>,
     /// The time at the start.
     pub origin: f64,
     /// Event functions.
     pub events: usize,
+}
+
+/// The states of a run that are recorded.
+#[derive(Clone, Copy, Debug)]
+pub enum Recorded<'a> {
+    /// The start, the end and those after every so many steps.
+    Every(u64),
+    /// The states at these times, in the order of the run.
+    At(&'a [Timed]),
+}
+
+/// A time at which a state is asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Timed {
+    /// The time, as it was given.
+    pub time: f64,
+    /// The time from the start.
+    pub elapsed: f64,
 }
 
 /// The records of a run, one after the other: vectors and matrices row by row.
@@ -83,7 +104,7 @@ impl Record {
     /// Records `motion`; `watch` is told from time to time of the steps taken, and may call it off.
     pub fn of<const N: usize>(
         motion: &mut dyn Motion<N>,
-        plan: &Plan,
+        plan: &Plan<'_>,
         watch: &Watch<'_>,
     ) -> (Self, Option<Stop>) {
         let mut record = Self { events: vec![Found::default(); plan.events], ..Self::default() };
@@ -94,14 +115,21 @@ impl Record {
     fn fill<const N: usize>(
         &mut self,
         motion: &mut dyn Motion<N>,
-        plan: &Plan,
+        plan: &Plan<'_>,
         watch: &Watch<'_>,
     ) -> Result<(), Stop> {
-        let every = plan.every.max(1);
-        self.reserve(motion, plan.steps.div_ceil(every).saturating_add(1)).map_err(Stop::TooLarge)?;
-        self.push(motion, plan)?;
-        let far = |taken| Some((taken, plan.steps));
-        while self.steps < plan.steps {
+        let (every, mut times) = match plan.recorded {
+            Recorded::Every(every) => (Some(every.max(1)), [].as_slice()),
+            Recorded::At(times) => (None, times),
+        };
+        let records = every.map_or(times.len() as u64, |every| plan.steps.div_ceil(every).saturating_add(1));
+        self.reserve(motion, records).map_err(Stop::TooLarge)?;
+        if every.is_some() {
+            self.push(motion, plan)?;
+        }
+        self.push_reached(&mut times, motion, plan)?;
+        let far = |taken: u64| Some((taken, plan.steps.max(taken)));
+        while plan.ends_by_itself || self.steps < plan.steps {
             match motion.advance() {
                 Some(Ok(Watched::Step(step))) => self.iterations += u64::from(step.report.iterations),
                 Some(Ok(Watched::Event(event))) => {
@@ -113,22 +141,51 @@ impl Record {
                 Some(Err(EventError::Step(error))) => return Err(self.failed(motion, plan, error)),
                 Some(Err(error)) => return Err(Stop::Events(error)),
                 None => {
-                    // An event has ended the run between two records.
-                    if self.t.last() != Some(&(plan.origin + motion.time())) {
+                    self.push_reached(&mut times, motion, plan)?;
+                    // The run has ended between two records, by an event or at a time.
+                    if every.is_some() && self.t.last() != Some(&(plan.origin + motion.time())) {
                         self.push(motion, plan)?;
                     }
                     break;
                 }
             }
             self.steps += 1;
-            if self.steps.is_multiple_of(every) || self.steps == plan.steps {
+            let is_last = self.steps == plan.steps && !plan.ends_by_itself;
+            let is_due = |every| self.steps.is_multiple_of(every) || is_last;
+            if every.is_some_and(is_due) {
                 self.push(motion, plan)?;
             }
+            self.push_reached(&mut times, motion, plan)?;
             if self.steps.is_multiple_of(Told::STRIDE) && watch.pass(far(self.steps)).is_break() {
                 return Err(Stop::Interrupted);
             }
         }
         if watch.tell(far(self.steps)).is_break() { Err(Stop::Interrupted) } else { Ok(()) }
+    }
+
+    /// Records the states at those of `times` that the run has reached, and takes these away.
+    fn push_reached<const N: usize>(
+        &mut self,
+        times: &mut &[Timed],
+        motion: &dyn Motion<N>,
+        plan: &Plan<'_>,
+    ) -> Result<(), Stop> {
+        while let Some((&Timed { time, elapsed }, later)) = times.split_first()
+            && let Some(at) = motion.at(elapsed)
+        {
+            let At { state, v, energy } = at.map_err(|error| self.failed(motion, plan, error))?;
+            self.add(time, &state, &v, energy);
+            *times = later;
+        }
+        Ok(())
+    }
+
+    fn add<const N: usize>(&mut self, time: f64, state: &State<f64, N>, v: &SVector<f64, N>, energy: f64) {
+        self.t.push(time);
+        self.q.extend_from_slice(state.q.as_slice());
+        self.v.extend_from_slice(v.as_slice());
+        self.p.extend_from_slice(state.p.as_slice());
+        self.energy.push(energy);
     }
 
     fn reserve<const N: usize>(
@@ -150,16 +207,11 @@ impl Record {
         Ok(())
     }
 
-    fn push<const N: usize>(&mut self, motion: &dyn Motion<N>, plan: &Plan) -> Result<(), Stop> {
+    fn push<const N: usize>(&mut self, motion: &dyn Motion<N>, plan: &Plan<'_>) -> Result<(), Stop> {
         let (v, energy) = motion.measured().map_err(|error| self.failed(motion, plan, error))?;
         let reactions = motion.reactions().map_err(|error| self.failed(motion, plan, error))?;
-        let state = motion.state();
         self.reactions.extend(reactions);
-        self.t.push(plan.origin + motion.time());
-        self.q.extend_from_slice(state.q.as_slice());
-        self.v.extend_from_slice(v.as_slice());
-        self.p.extend_from_slice(state.p.as_slice());
-        self.energy.push(energy);
+        self.add(plan.origin + motion.time(), motion.state(), &v, energy);
         if let Some(dependence) = motion.dependence() {
             self.by_start.extend(matrix_rows(&dependence.by_start));
             self.by_parameters.extend(column_rows(&dependence.by_parameters));
@@ -167,7 +219,7 @@ impl Record {
         Ok(())
     }
 
-    fn failed<const N: usize>(&self, motion: &dyn Motion<N>, plan: &Plan, error: StepError) -> Stop {
+    fn failed<const N: usize>(&self, motion: &dyn Motion<N>, plan: &Plan<'_>, error: StepError) -> Stop {
         let state = motion.state();
         let state = [state.q, state.p].map(|vector| vector.as_slice().to_vec());
         Stop::Failed(Failure { error, step: self.steps, time: plan.origin + motion.time(), state })

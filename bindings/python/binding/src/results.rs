@@ -1,8 +1,11 @@
 //! Results: arrays, and objects that print.
 
+use std::ffi::CString;
+
 use dalembert::tolerance::Breach as BreachOf;
 use numpy::{PyArray1, PyArray2, PyArray3};
 use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyModule};
 
 use crate::arrays::to_array;
@@ -111,11 +114,19 @@ fn reactions<'py>(py: Python<'py>, record: &mut Record) -> PyResult<Option<Bound
 }
 
 impl Run {
-    /// The run of a system with `n` coordinates.
+    /// The run of a system with `n` coordinates, from the time `origin` on.
     ///
     /// # Errors
     /// Those of Python.
-    pub fn new(py: Python<'_>, ran: Ran, n: usize, parameters: usize, h: f64, rule: &str) -> PyResult<Self> {
+    pub fn new(
+        py: Python<'_>,
+        ran: Ran,
+        origin: f64,
+        n: usize,
+        parameters: usize,
+        h: f64,
+        rule: &str,
+    ) -> PyResult<Self> {
         let Ran { mut record, guarded, .. } = ran;
         let events = core::mem::take(&mut record.events)
             .into_iter()
@@ -130,8 +141,8 @@ impl Run {
         let by_parameters = matrices(core::mem::take(&mut record.by_parameters), parameters)?;
         let reactions = reactions(py, &mut record)?.map(Bound::unbind);
         let breach = guarded.as_ref().and_then(|guarded| guarded.breach);
-        let breach = breach.map(|BreachOf { time: t, expected, tolerance, instead, .. }| {
-            Py::new(py, Breach { t, expected, tolerance, instead })
+        let breach = breach.map(|BreachOf { time, expected, tolerance, instead, .. }| {
+            Py::new(py, Breach { t: origin + time, expected, tolerance, instead })
         });
         let Arrays { t, q, v, p, energy } = Arrays::new(py, &mut record, n)?;
         Ok(Self {
@@ -234,15 +245,51 @@ impl Run {
         self.t.bind(py).len()
     }
 
-    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let Self { steps, iterations, h, rule, .. } = self;
-        let records = self.t.bind(py).len()?;
-        let expected =
-            self.expected.map_or_else(String::new, |expected| format!(", error expected {expected:.1e}"));
-        Ok(format!(
-            "Run: {steps} steps of {h} by {rule}, {iterations} iterations, {records} records{expected}"
-        ))
+    /// A pandas DataFrame with a row for each record and t as its index: columns q0 …, v0 …, p0 …, energy,
+    /// and reaction0 … where there are reactions.
+    ///
+    /// Raises
+    /// ------
+    /// ImportError
+    ///     pandas is not installed.
+    fn to_pandas<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        in_python(this, "to_pandas")
     }
+
+    /// An xarray Dataset with the coordinate t: q, v, p by (t, coordinate), energy by t, and the derivatives
+    /// and reactions that there are.
+    ///
+    /// Raises
+    /// ------
+    /// ImportError
+    ///     xarray is not installed.
+    fn to_xarray<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        in_python(this, "to_xarray")
+    }
+
+    /// A figure of matplotlib: q above, the energy below.
+    ///
+    /// Raises
+    /// ------
+    /// ImportError
+    ///     matplotlib is not installed.
+    fn plot<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        in_python(this, "plot")
+    }
+
+    fn __repr__<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        in_python(this, "shown")
+    }
+}
+
+/// The result of a function of `run.py`.
+fn in_python<'py>(run: &Bound<'py, Run>, function: &str) -> PyResult<Bound<'py, PyAny>> {
+    static FUNCTIONS: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
+    let py = run.py();
+    let text =
+        || PyModule::from_code(py, &CString::new(include_str!("run.py"))?, c"run.py", c"_dalembert_run");
+    let functions = FUNCTIONS.get_or_try_init(py, || PyResult::Ok(text()?.unbind()))?;
+    functions.bind(py).call_method1(function, (run,))
 }
 
 /// Adds the classes of results to `module`, as its own.

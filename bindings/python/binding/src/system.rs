@@ -1,7 +1,7 @@
 //! A system as `module!` states it, and how it is entered without its type.
 
 use dalembert::system::ActingForce;
-use dalembert_face::{Described, Fields, Holding};
+use dalembert_face::{Described, Events, Fields, Holding};
 
 /// A system: its fields, and what is stepped.
 ///
@@ -17,6 +17,8 @@ pub trait System<const N: usize>: Sized + 'static {
     type Parameters;
     /// The type of λ.
     type Multipliers: for<'a> Holding<Self::View<'a>, N>;
+    /// The type of the values of event functions.
+    type Events: for<'a> Events<Self::View<'a>, N>;
     /// The type that is stepped: the fields, or a view of them with an input and a time.
     type View<'a>: ActingForce<N, Scalar = f64> + Send + Sync;
 

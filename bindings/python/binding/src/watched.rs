@@ -10,7 +10,8 @@ use dalembert::tolerance::ToleranceError;
 use dalembert::{Lagrangian, State};
 use dalembert_ensemble::{End, Failure, MemberError, Plan, Record, Slot, Stepping, one_by_one};
 
-use crate::events::{Events, Function};
+use crate::events::{Events, Function, of_block};
+use crate::look::Look;
 use crate::motion::Motion;
 use crate::offer::{ErrorAsked, Steps, StepsToError};
 use crate::system::System;
@@ -108,7 +109,8 @@ impl<S: System<N>, const N: usize> Watched<'_, S, N> {
         let ran = catch_unwind(AssertUnwindSafe(|| match &self.steps {
             Unwatched::Fixed(by, Plan { h, steps, every, .. }) => {
                 let mut record = |motion: &mut dyn Motion<N>| run.follow(motion, *steps, *every, stop);
-                by.run(system, *h, &start, Some(self.events), &mut record);
+                let look = Look { events: Some(self.events), ..Look::default() };
+                by.run(system, *h, &start, look, &mut record);
                 Ok(())
             }
             Unwatched::ToError(by, asked) => {
@@ -177,7 +179,9 @@ impl<'v, S: System<N>, const N: usize> Stepping<S::View<'v>, N> for Watched<'_, 
         let Ok(v) = start.velocity(system) else { return Vec::new() };
         let Events { asked, origin } = self.events;
         let value = |function: &Function<'_>| match function {
-            Function::Plane { .. } => None,
+            // Told apart by the description.
+            Function::Plane { .. } | Function::Sphere { .. } | Function::Energy(_) => None,
+            Function::OfBlock(index) => Some(of_block::<S::Events, _, N>(system, &start.q, &v, *index)),
             Function::Given(function) => Some(function(origin, start.q.as_slice(), v.as_slice())),
         };
         asked.iter().filter_map(|event| value(&event.function)).collect()

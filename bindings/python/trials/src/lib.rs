@@ -114,4 +114,7 @@ impl Maxwell {
     }
 }
 
-dalembert_python::module!(dalembert_trials { Cut, Edited, Rods, Skate, Maxwell });
+dalembert_python::module!(
+    /// Systems that misbehave, for tests.
+    dalembert_trials { Cut, Edited, Rods, Skate, Maxwell }
+);

@@ -148,6 +148,7 @@ pub fn description(system: &System<'_>) -> TokenStream {
         let m = system.constraint_count();
         quote!(, constraints #m)
     });
+    let events = system.events.as_ref().map(|count| count.times(1)).map(|k| quote!(, events #k));
     let parameters = (!system.parameters.is_empty()).then(|| {
         let names = parameter_names(system);
         quote!(, parameters [#(#names),*])
@@ -155,7 +156,7 @@ pub fn description(system: &System<'_>) -> TokenStream {
     // described! { Arm [DrivenArm driven]: f64, 2, input u 1; described_Arm $ }
     quote! {
         #(#conditions)*
-        ::dalembert::generated::described! { #system_name #view: #scalar, #n #input #time #constraints #parameters; #words $ }
+        ::dalembert::generated::described! { #system_name #view: #scalar, #n #input #time #constraints #events #parameters; #words $ }
     }
 }
 
@@ -197,7 +198,9 @@ pub fn delegation(system: &System<'_>, part: Part, verification: Option<TokenStr
             ("lagrangian", "Lagrangian", Some(associated), later(system))
         }
         Part::Rayleigh => ("rayleigh", "Rayleigh", None, None),
-        Part::Force | Part::TimeScale | Part::Constraints | Part::VelocityConstraints => return None,
+        Part::Force | Part::TimeScale | Part::Constraints | Part::VelocityConstraints | Part::Events => {
+            return None;
+        }
     };
     let [value, gradient, derivatives, variations] =
         ["", "_gradient", "_derivatives", "_variations"].map(|suffix| format_ident!("{function}{suffix}"));

@@ -6,7 +6,7 @@ use nalgebra::SVector;
 
 use crate::numbers::Scalar;
 use crate::step::{State, reactions_at};
-use crate::system::{ActingForce, Constrained, Lagrangian};
+use crate::system::{ActingForce, Constrained, EventFunctions, Lagrangian};
 
 /// A system at one moment: q, and what is asked of it besides.
 #[derive(Clone, Copy)]
@@ -60,9 +60,7 @@ where
                 let state = State { q: self.q, p };
                 let velocity = |system: &L| state.velocity(system);
                 let unknown = |_| SVector::repeat(L::Scalar::constant(f64::NAN));
-                self.system
-                    .later(L::Scalar::constant(self.time - self.since), velocity)
-                    .unwrap_or_else(unknown)
+                self.ask(velocity).unwrap_or_else(unknown)
             }
             (None, None) => SVector::repeat(L::Scalar::constant(f64::NAN)),
         }
@@ -76,11 +74,53 @@ where
             Some(momentum) => momentum,
             None => {
                 let v = self.velocity();
-                self.system.later(L::Scalar::constant(self.time - self.since), |system| {
-                    system.lagrangian_gradient(&self.q, &v).d2
-                })
+                self.ask(|system| system.lagrangian_gradient(&self.q, &v).d2)
             }
         }
+    }
+
+    /// The values then of the event functions that the block of the system states:
+    /// `run.watch(|at| at.events())` watches for them.
+    ///
+    /// ```
+    /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
+    ///
+    /// struct Ball {
+    ///     height: f64,
+    /// }
+    /// #[rayleigh_system]
+    /// impl Ball {
+    ///     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///         0.5 * v[0] * v[0] - q[0]
+    ///     }
+    ///     fn events(&self, q: [f64; 1], v: [f64; 1]) -> [f64; 2] {
+    ///         [q[0] - self.height, v[0]]
+    ///     }
+    /// }
+    /// let ball = Ball { height: 0.375 };
+    /// let start = State::from_velocity(&ball, [0.0], [1.0])?;
+    /// let mut run = ball.by(Midpoint, 0.1).run(start);
+    /// let found: Vec<_> = run.watch(|at| at.events()).until(2.0).collect::<Result<_, _>>()?;
+    /// // Up at t = 1/2, at the top at 1, down at 3/2.
+    /// let found: Vec<_> = found.iter().map(|event| (event.index, event.time)).collect();
+    /// assert_eq!(found.len(), 3);
+    /// for ((index, time), expected) in found.iter().zip([(0, 0.5), (1, 1.0), (0, 1.5)]) {
+    ///     assert!(*index == expected.0 && (time - expected.1).abs() < 1e-13);
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn events<const K: usize>(&self) -> [L::Scalar; K]
+    where
+        L: EventFunctions<N, K>,
+    {
+        let v = self.velocity();
+        self.ask(|system| system.events(&self.q, &v))
+    }
+
+    /// The answer of the system, as it is then.
+    pub fn ask<T>(&self, ask: impl FnOnce(&L) -> T) -> T {
+        self.system.later(L::Scalar::constant(self.time - self.since), ask)
     }
 
     /// The multipliers of the constraints then, [`State::reactions`]; NaN where there are none. A constraint
@@ -91,8 +131,7 @@ where
         L: Constrained<N, M> + ActingForce<N>,
     {
         let (q, v) = (&self.q, &self.velocity());
-        self.system
-            .later(L::Scalar::constant(self.time - self.since), |system| reactions_at(system, q, v))
+        self.ask(|system| reactions_at(system, q, v))
             .unwrap_or_else(|_| SVector::repeat(L::Scalar::constant(f64::NAN)))
     }
 

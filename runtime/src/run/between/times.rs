@@ -3,8 +3,7 @@
 use core::fmt;
 
 use crate::numbers::Scalar;
-use crate::run::between::{Dense, Divisible};
-use crate::run::checkpoint::is_same;
+use crate::run::between::{Dense, Divisible, on_clock};
 use crate::run::{Sample, Trajectory};
 use crate::step::{Flow, StepError};
 
@@ -60,21 +59,20 @@ impl<'t, T: Divisible<N>, const N: usize, I> SampledAt<'t, T, N, I> {
         A: IntoIterator<Item = f64, IntoIter = I>,
     {
         let asked = run.time();
-        Self { dense: Dense::of(run), times: times.into_iter(), asked, ended: false }
+        Self { dense: Dense::new(run), times: times.into_iter(), asked, ended: false }
     }
 
     /// The sample at `time`; `None` where the run has ended before.
     fn sample(&mut self, time: f64) -> Result<Option<Sample<T::Scalar, N>>, TimeError> {
         let backwards = self.dense.run.step_size() < T::Scalar::constant(0.0);
-        let ahead = |time: f64, of: f64| if backwards { time < of } else { time > of };
-        let asked = time;
-        let mut time = on_clock(asked, self.dense.run.time());
-        if !time.is_finite() || ahead(self.asked, time) {
-            return Err(TimeError::NotSorted { time: asked, after: self.asked });
+        let on_clock = on_clock(time, self.dense.run.time());
+        let is_before = if backwards { on_clock > self.asked } else { on_clock < self.asked };
+        if !time.is_finite() || is_before {
+            return Err(TimeError::NotSorted { time, after: self.asked });
         }
-        self.asked = time;
+        self.asked = on_clock;
         let (mut iterations, mut damped, mut worst_residual) = (0, 0, 0.0_f64);
-        while ahead(time, self.dense.run.time()) {
+        while !self.dense.has_reached(time) {
             let report = match self.dense.next() {
                 Some(step) => step?.report,
                 None => return Ok(None),
@@ -84,15 +82,11 @@ impl<'t, T: Divisible<N>, const N: usize, I> SampledAt<'t, T, N, I> {
             if report.residual > T::Scalar::constant(0.0) {
                 worst_residual = worst_residual.max((report.residual / report.floor).widen());
             }
-            time = on_clock(asked, self.dense.run.time());
         }
-        let (state, previous) = match self.dense.start {
-            Some(start) => (self.dense.state_at(time)?, start.state.q),
-            // The run has not begun.
-            None => (*self.dense.run.state(), self.dense.run.state().q),
-        };
+        let state = self.dense.state_at(time)?;
+        let previous = self.dense.start.map_or(state.q, |start| start.state.q);
         let since = self.dense.since();
-        Ok(Some(Sample { time: asked, state, previous, iterations, damped, worst_residual, since }))
+        Ok(Some(Sample { time, state, previous, iterations, damped, worst_residual, since }))
     }
 }
 
@@ -112,11 +106,6 @@ where
         self.ended = !matches!(sample, Some(Ok(_)));
         sample
     }
-}
-
-/// The time, or the clock where they differ by a few roundings of either.
-fn on_clock(time: f64, clock: f64) -> f64 {
-    if is_same(time, clock) { clock } else { time }
 }
 
 /// Why there is no state at a time.

@@ -16,7 +16,7 @@ where
 {
     /// This run as one that answers for all times of its last step: [`Dense`].
     pub fn dense(&mut self) -> Dense<'_, Self, N> {
-        Dense::of(self)
+        Dense::new(self)
     }
 
     /// The states at `times`, in the order of the run: [`SampledAt`]. Their error is that of the steps.

@@ -30,7 +30,9 @@ impl Text<'_> {
                 Part::Rayleigh => quote!(Rayleigh),
                 Part::Force => quote!(Force { index: #index }),
                 Part::TimeScale => quote!(TimeScale),
-                Part::Constraints | Part::VelocityConstraints => quote!(Constraint { index: #index }),
+                Part::Constraints | Part::VelocityConstraints | Part::Events => {
+                    quote!(Constraint { index: #index })
+                }
             };
             let statements = &line.statements;
             arms.push(quote! {
