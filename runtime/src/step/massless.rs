@@ -8,6 +8,11 @@
 //! Steps do not ask for them: by rules that step such systems p0(v̄) holds the friction, and its Newton
 //! matrix is regular as it is. What is here is asked where ∂²L/∂v² turns out to be singular.
 
+#![expect(
+    clippy::needless_range_loop,
+    reason = "an iterator is some ten functions to compile, in every program"
+)]
+
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{CovectorDerivatives, Derivatives, Scalar};
@@ -47,31 +52,47 @@ impl<const N: usize> Massless<N> {
     #[cold]
     #[inline(never)]
     pub(crate) fn of<L: Lagrangian<N> + ?Sized>(system: &L, q: &SVector<L::Scalar, N>) -> Self {
-        let mut massless = [!L::IS_CONSTRAINED; N];
+        let mut massless = Self([!L::IS_CONSTRAINED; N]);
         let rest = nalgebra::zero();
         for (q, v) in [(*q, rest), (*q, beside_velocity(&rest)), (beside(q), beside_velocity(&rest))] {
-            if massless.contains(&true) {
+            if massless.are_any() {
                 let l = derivatives_apart(system, &q, &v);
-                massless.iter_mut().enumerate().for_each(|(i, is_massless)| *is_massless &= is_absent(&l, i));
+                for i in 0..N {
+                    massless.0[i] &= is_absent(&l, i);
+                }
             }
         }
-        Self(massless)
+        massless
     }
 
     /// Whether there are any.
     pub(crate) fn are_any(&self) -> bool {
-        self.0.contains(&true)
+        self.first().is_some()
     }
 
     /// The first of them.
     pub(crate) fn first(&self) -> Option<usize> {
-        self.0.iter().position(|is_massless| *is_massless)
+        let mut first = None;
+        for i in 0..N {
+            if self.0[i] && first.is_none() {
+                first = Some(i);
+            }
+        }
+        first
     }
 
     /// Momenta, or columns of their derivatives, with 0 in these coordinates: what rounding makes of them is
     /// left out.
     pub(crate) fn without<S: Scalar, const K: usize>(&self, p: &SMatrix<S, N, K>) -> SMatrix<S, N, K> {
-        SMatrix::from_fn(|i, j| if self.0[i] { S::zero() } else { p[(i, j)] })
+        let mut held = *p;
+        for column in &mut held.data.0 {
+            for i in 0..N {
+                if self.0[i] {
+                    column[i] = S::zero();
+                }
+            }
+        }
+        held
     }
 
     /// The equations for the velocity, where L and the force have these derivatives; those of coordinates
@@ -87,11 +108,15 @@ impl<const N: usize> Massless<N> {
             return balance;
         }
         let force = force();
-        for i in (0..N).filter(|&i| self.0[i]) {
-            balance.value[i] = -(l.d1[i] + force.value[i]) * scale;
-            for j in 0..N {
-                balance.by_v[(i, j)] = -(l.d12[(i, j)] + force.d2[(i, j)]) * scale;
-                balance.by_q[(i, j)] = -(l.d11[(i, j)] + force.d1[(i, j)]) * scale;
+        let (l_by_v, l_by_q) = (&l.d12.data.0, &l.d11.data.0);
+        let (force_by_v, force_by_q) = (&force.d2.data.0, &force.d1.data.0);
+        for i in 0..N {
+            if self.0[i] {
+                balance.value.data.0[0][i] = -(l.d1.data.0[0][i] + force.value.data.0[0][i]) * scale;
+                for j in 0..N {
+                    balance.by_v.data.0[j][i] = -(l_by_v[j][i] + force_by_v[j][i]) * scale;
+                    balance.by_q.data.0[j][i] = -(l_by_q[j][i] + force_by_q[j][i]) * scale;
+                }
             }
         }
         balance
@@ -147,8 +172,15 @@ pub(crate) fn inertia<L: Lagrangian<N> + ?Sized, const N: usize>(
 
 /// Whether L does not hold the velocity of this coordinate, as far as these derivatives tell.
 fn is_absent<S: Scalar, const N: usize>(l: &Derivatives<S, N>, of: usize) -> bool {
-    let is_zero = |column: &[S; N]| column.iter().all(|entry| *entry == S::zero());
-    l.d2.iter().skip(of).take(1).all(|entry| *entry == S::zero())
-        && l.d22.data.0.get(of).is_some_and(is_zero)
-        && l.d12.data.0.get(of).is_some_and(is_zero)
+    let (d22, d12) = (&l.d22.data.0, &l.d12.data.0);
+    let mut is_absent = false;
+    for j in 0..N {
+        if j == of {
+            is_absent = l.d2.data.0[0][j] == S::zero();
+            for i in 0..N {
+                is_absent &= d22[j][i] == S::zero() && d12[j][i] == S::zero();
+            }
+        }
+    }
+    is_absent
 }

@@ -132,5 +132,14 @@ pub trait ActingForce<const N: usize>: Lagrangian<N> {
 pub(crate) fn force_of_rayleigh<S: Scalar, const N: usize>(
     r: &Derivatives<S, N>,
 ) -> CovectorDerivatives<S, N> {
-    CovectorDerivatives { value: -r.d2, d1: -r.d12.transpose(), d2: -r.d22 }
+    // By loops: operators of matrices are a hundred functions to compile, in every program with friction.
+    let mut force = CovectorDerivatives::zero();
+    for i in 0..N {
+        force.value.data.0[0][i] = -r.d2.data.0[0][i];
+        for j in 0..N {
+            force.d1.data.0[j][i] = -r.d12.data.0[i][j];
+            force.d2.data.0[j][i] = -r.d22.data.0[j][i];
+        }
+    }
+    force
 }

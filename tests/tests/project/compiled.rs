@@ -33,8 +33,8 @@ const CEILINGS: [Ceiling; 3] = [
             0.5 * self.drag * (v[0] * v[0] + (v[1] - v[0]).powi(2))
         }",
         is_in_lanes: false,
-        one: [2840, 5420],
-        more: [6420, 13650],
+        one: [2665, 5160],
+        more: [6165, 13305],
     },
     Ceiling {
         name: "spring in space",
@@ -47,8 +47,8 @@ const CEILINGS: [Ceiling; 3] = [
             self.drag * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
         }",
         is_in_lanes: false,
-        one: [3240, 6250],
-        more: [6855, 14780],
+        one: [3045, 5965],
+        more: [6655, 14510],
     },
     Ceiling {
         name: "seven links",
@@ -70,8 +70,8 @@ const CEILINGS: [Ceiling; 3] = [
             0.5 * self.drag * sum
         }",
         is_in_lanes: true,
-        one: [6390, 15065],
-        more: [7600, 19595],
+        one: [6290, 14940],
+        more: [7450, 19375],
     },
 ];
 
