@@ -117,7 +117,7 @@ fn draw(runs: &[Run]) -> Result<PathBuf> {
                 (entries[entries.len() / 2].0, values.fold(0.0, f64::max))
             };
             let (first, rest) = run.course.split_at(100);
-            let points = (first.chunks(10).chain(rest.chunks(100))).map(largest).collect();
+            let points = (first.chunks(10).chain(rest.chunks_exact(100))).map(largest).collect();
             Curve::line(run.method, run.colour, 3, points).dashed(dash)
         };
         let dashes = [Dash::Solid, Dash::Dashed, Dash::Dotted, Dash::DashDotted];

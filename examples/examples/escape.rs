@@ -244,7 +244,7 @@ fn draw(plane: &Plane, fates: &[Fate], path: Option<PathBuf>) -> Result<PathBuf>
             .to_equal_scale()
     };
     let openings = panel(
-        "Three basins of escape with one fractal boundary",
+        "Hénon–Heiles: three basins, one fractal boundary",
         &[
             ("above", colour::VARIATIONAL),
             ("on the right", colour::FIFTH),
@@ -271,5 +271,5 @@ fn draw(plane: &Plane, fates: &[Fate], path: Option<PathBuf>) -> Result<PathBuf>
             None => TIMES.len(),
         },
     );
-    picture::write_to(path, "escape", [1240, 700], 2, &[openings, times])
+    picture::write_to(path, "escape", [1240, 640], 2, &[openings, times])
 }

@@ -232,14 +232,23 @@ fn fan_panel<'a>(
     fan: &[Characteristic<f64, 1>],
     caustics: &[Caustic<1>],
 ) -> Panel<'a> {
+    // Few long steps: lines from state to state would be taken for the motion.
+    let has_dots = fan.len() < 20;
     let mut curves: Vec<_> = fan
         .iter()
         .enumerate()
         .map(|(index, characteristic)| {
-            let label = if index == 0 { "characteristics, a dot a step" } else { "" };
+            let label = if index > 0 {
+                ""
+            } else if has_dots {
+                "characteristics, a dot a step"
+            } else {
+                "characteristics"
+            };
             let states = characteristic.states.iter().enumerate();
             let points = states.map(|(k, state)| (k as f64 * h, state.q[0])).collect();
-            Curve::line(label, colour::VARIATIONAL, 1, points).marked(Mark::Dot, 1)
+            let curve = Curve::line(label, colour::VARIATIONAL, 1, points);
+            if has_dots { curve.marked(Mark::Dot, 1) } else { curve }
         })
         .collect();
     let points = caustics.iter().map(|c| ((c.step as f64 + c.fraction) * h, c.q[0])).collect();

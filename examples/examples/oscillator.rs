@@ -47,8 +47,8 @@ fn main() -> Result<()> {
     let runge_kutta = baseline::states(&SYSTEM, Method::RungeKutta4, H, start)?;
     let motions = [
         Motion::of(euler, "explicit Euler", colour::EULER, Mark::Triangle)?,
-        Motion::of(runge_kutta, "Runge–Kutta 4", colour::RUNGE_KUTTA, Mark::Circle)?,
-        Motion::of(midpoint, "variational midpoint", colour::VARIATIONAL, Mark::Disc)?,
+        Motion::of(runge_kutta, "Runge–Kutta 4", colour::RUNGE_KUTTA, Mark::Cross)?,
+        Motion::of(midpoint, "variational midpoint", colour::VARIATIONAL, Mark::Circle)?,
     ];
 
     println!("Largest error over {STEPS} steps of h = {H}, dimensionless");

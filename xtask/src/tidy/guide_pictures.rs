@@ -64,7 +64,9 @@ pub fn check(shell: &Shell) -> Result<Vec<String>> {
         for Picture { link, definition } in pictures(&chapter)? {
             count += 1;
             if project::text(format!("{GUIDE}{link}")).ok().as_ref() != Some(&definition) {
-                found.push(format!("{GUIDE}{link} is not the picture: `cargo xtask bless pictures` writes it"));
+                found.push(format!(
+                    "{GUIDE}{link} is not the picture: `cargo xtask bless pictures` writes it"
+                ));
             }
             let place = |file: &str| sources.find(&format!("include_str!(\"guide/{file}\")"));
             if place(&link).is_none_or(|at| place(&name).is_none_or(|chapter| at > chapter)) {
