@@ -313,9 +313,11 @@ fn draw(run: &Run) -> Result<std::path::PathBuf> {
     let torque = |joint: usize| over_time(&|k| run.torques[k][joint], all.clone());
     let time = linear("time t (s)");
     let counted = SETTLED as f64 * H;
+    let largest = run.misses[SETTLED..].iter().copied().fold(0.0, f64::max);
+    let settled = format!("Once settled the tip is within {:.1} mm", 1e3 * largest);
     let panels = [
         Panel::new(
-            "Path of the tip",
+            "From rest the tip joins its figure eight",
             linear("x (m)"),
             linear("y (m)"),
             vec![
@@ -325,13 +327,13 @@ fn draw(run: &Run) -> Result<std::path::PathBuf> {
         )
         .to_equal_scale(),
         Panel::new(
-            "Distance of the tip from its reference",
+            &settled,
             time,
-            logarithmic("distance (mm)").with_floor(1e-3).from_to(1e-3, 10.0),
+            logarithmic("distance from the reference (mm)").with_floor(1e-3).from_to(1e-3, 10.0),
             vec![
                 Curve::line("tip", colour::VARIATIONAL, 2, over_time(&|k| 1e3 * run.misses[k], all.clone())),
                 Curve::line(
-                    "from here on \u{201c}settled\u{201d}",
+                    "settled from here on",
                     colour::RUNGE_KUTTA,
                     2,
                     vec![(counted, 1e-3), (counted, 10.0)],
@@ -340,7 +342,7 @@ fn draw(run: &Run) -> Result<std::path::PathBuf> {
             ],
         ),
         Panel::new(
-            "Torques of the controller",
+            "Most torque goes into the start",
             time,
             linear("torque (N m)"),
             vec![
@@ -349,9 +351,9 @@ fn draw(run: &Run) -> Result<std::path::PathBuf> {
             ],
         ),
         Panel::new(
-            "Velocity of the second joint, 0.2 s of it",
+            "The filter finds the velocity in the noise",
             time,
-            linear("velocity (rad/s)"),
+            linear("velocity of the second joint (rad/s)"),
             vec![
                 Curve::line("differences of the encoder", colour::EULER, 1, velocity(2)),
                 Curve::line("true", colour::REFERENCE, 4, velocity(0)),
@@ -359,5 +361,5 @@ fn draw(run: &Run) -> Result<std::path::PathBuf> {
             ],
         ),
     ];
-    picture::write("arm", [1600, 1200], 2, &panels)
+    picture::write("arm", [1240, 1160], 2, &panels)
 }

@@ -200,8 +200,8 @@ fn draw(motion: &Motion) -> Result<std::path::PathBuf> {
         Curve::line("the stop", colour::REFERENCE, 2, vec![(0.0, STOP), (end, STOP)]).dashed(Dash::Dashed),
     ];
     let panels = [Panel::new(
-        "A motor, gears with play, and a stop: impacts, rest, release",
-        linear("time (s)"),
+        "Geared against a stop the load bounces, rests, and is released",
+        linear("time t (s)"),
         linear("angle (rad)"),
         curves,
     )];

@@ -150,17 +150,17 @@ fn draw(bouncing: &Bouncing) -> Result<std::path::PathBuf> {
     ];
     let panels = [
         Panel::new(
-            "A pendulum against a stop: impacts between the steps",
+            "A pendulum bounces off a stop and comes to rest",
             linear("time t (dimensionless)"),
             linear("angle (rad)"),
             angle,
         ),
         Panel::new(
-            "Where its energy goes: the account closes",
+            "Impacts take most of its energy",
             linear("time t (dimensionless)"),
             linear("energy above rest (dimensionless)"),
             energy,
         ),
     ];
-    picture::write("bouncing", [1700, 640], 2, &panels)
+    picture::write("bouncing", [1240, 560], 2, &panels)
 }

@@ -313,25 +313,20 @@ fn draw(plan: &Plan<4, 1>, run: &Run) -> Result<std::path::PathBuf> {
     let close =
         moved(1).into_iter().skip(SWING + 50).map(|(t, angle)| (t, (angle - PI).to_degrees())).collect();
     let panels = [
+        Panel::new("The pole is swung up, then held", time, linear("angle from below (rad)"), curves(1, PI)),
+        Panel::new("The cart comes back after each push", time, linear("position (m)"), curves(0, 0.0)),
         Panel::new(
-            "Angle of the pole: swung up, then held",
+            "A push tilts the held pole by a few degrees",
             time,
-            linear("angle from below (rad)"),
-            curves(1, PI),
-        ),
-        Panel::new("Position of the cart", time, linear("position (m)"), curves(0, 0.0)),
-        Panel::new(
-            "Angle from upright, once held",
-            time,
-            linear("angle from upright (degrees)"),
+            linear("angle from upright (°)"),
             vec![Curve::line("motion", colour::VARIATIONAL, 2, close), pushes(0.0)],
         ),
         Panel::new(
-            "Force of the controller",
+            "The swing-up takes the largest force",
             time,
             linear("force on the cart (N)"),
             vec![Curve::line("force", colour::VARIATIONAL, 1, forces), pushes(0.0)],
         ),
     ];
-    picture::write("cart_pole", [1600, 1200], 2, &panels)
+    picture::write("cart_pole", [1240, 1160], 2, &panels)
 }

@@ -165,7 +165,7 @@ fn draw(potentials: &[Potential]) -> Result<PathBuf> {
     let tolerance = step_sizes().enumerate().map(largest).collect();
     curves.push(Curve::line("below: counts as 0", colour::GREY, 3, tolerance).dashed(Dash::Dotted));
     let panel = Panel::new(
-        "Exact discrete force: a Rayleigh function for the harmonic potential only",
+        "Only for the harmonic potential does the exact discrete force have a Rayleigh function",
         logarithmic("step size h (dimensionless)"),
         // Exact zeros stand at the floor.
         logarithmic("|D1 f⁺ + D2 f⁻| (dimensionless)").with_floor(1e-17),

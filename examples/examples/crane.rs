@@ -242,12 +242,23 @@ fn draw(seeing: &[Moment], blind: &[Moment]) -> Result<PathBuf> {
     ];
     let time = linear("time t (s)");
     let panels = [
-        Panel::new("Lifted while it travels", linear("along (m)"), linear("up (m)"), way).to_equal_scale(),
-        Panel::new("Places along, and the rope", time, linear("place, length (m)"), places),
-        Panel::new("Swing", time, linear("rope from below (°)"), pair(&|at| at.swing.to_degrees())),
-        Panel::new("Force of the drive", time, linear("on the trolley (kN)"), pair(&|at| 1e-3 * at.drive)),
-        Panel::new("Force in the rope: the reaction", time, linear("tension (kN)"), tensions),
-        Panel::new("Where energy comes from, and goes", time, linear("energy (kJ)"), energy),
+        Panel::new("The load is lifted while it travels", linear("along (m)"), linear("up (m)"), way)
+            .to_equal_scale(),
+        Panel::new("The load arrives with the trolley", time, linear("place, length (m)"), places),
+        Panel::new(
+            "Seen, the swing ends with the travel",
+            time,
+            linear("rope from below (°)"),
+            pair(&|at| at.swing.to_degrees()),
+        ),
+        Panel::new(
+            "Blind, the drive keeps the swing alive",
+            time,
+            linear("on the trolley (kN)"),
+            pair(&|at| 1e-3 * at.drive),
+        ),
+        Panel::new("The rope carries little but the weight", time, linear("tension (kN)"), tensions),
+        Panel::new("The hoist brings nearly all the energy", time, linear("energy (kJ)"), energy),
     ];
-    picture::write("crane", [2100, 1240], 3, &panels)
+    picture::write("crane", [1240, 1740], 2, &panels)
 }

@@ -203,5 +203,5 @@ fn draw(hunting: &[Moment], still: &[Moment]) -> Result<PathBuf> {
         ),
         Panel::new("The torque grows until friction gives way", time, linear("torque (N m)"), torques),
     ];
-    picture::write("drive", [2100, 640], 3, &panels)
+    picture::write("drive", [1000, 1380], 1, &panels)
 }

@@ -244,7 +244,7 @@ fn draw(plane: &Plane, fates: &[Fate], path: Option<PathBuf>) -> Result<PathBuf>
             .to_equal_scale()
     };
     let openings = panel(
-        "Hénon–Heiles, E = 1/5: through which opening a start leaves",
+        "Hénon–Heiles: three basins, one fractal boundary",
         &[
             ("above", colour::VARIATIONAL),
             ("on the right", colour::FIFTH),
@@ -254,16 +254,16 @@ fn draw(plane: &Plane, fates: &[Fate], path: Option<PathBuf>) -> Result<PathBuf>
         &|fate| fate.opening.unwrap_or(3),
     );
     let times = panel(
-        "Hénon–Heiles, E = 1/5: when it leaves",
-        // Even steps of lightness, for readers with any colour vision and in grey (cividis; Nuñez, Anderton
-        // and Renslow, 2018).
+        "Near the boundary stars stay for long",
+        // Even steps of lightness and a change of hue, for readers with any colour vision and in grey
+        // (viridis; van der Walt and Smith, 2015).
         &[
-            ("t < 5", RGBColor(254, 232, 56)),
-            ("5 … 15", RGBColor(211, 193, 100)),
-            ("15 … 30", RGBColor(165, 156, 116)),
-            ("30 … 60", RGBColor(124, 123, 120)),
-            ("60 … 120", RGBColor(77, 89, 109)),
-            ("120 … 300", RGBColor(0, 52, 110)),
+            ("t < 5", RGBColor(253, 231, 37)),
+            ("5 … 15", RGBColor(122, 209, 81)),
+            ("15 … 30", RGBColor(34, 168, 132)),
+            ("30 … 60", RGBColor(42, 120, 142)),
+            ("60 … 120", RGBColor(65, 68, 135)),
+            ("120 … 300", RGBColor(68, 1, 84)),
             ("not by t = 300", colour::REFERENCE),
         ],
         &|fate| match fate.opening {
@@ -271,5 +271,5 @@ fn draw(plane: &Plane, fates: &[Fate], path: Option<PathBuf>) -> Result<PathBuf>
             None => TIMES.len(),
         },
     );
-    picture::write_to(path, "escape", [1700, 860], 2, &[openings, times])
+    picture::write_to(path, "escape", [1240, 640], 2, &[openings, times])
 }

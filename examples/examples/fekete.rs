@@ -285,20 +285,25 @@ fn draw(moments: &[Moment], path: Option<PathBuf>) -> Result<PathBuf> {
         .collect();
     let time = linear("time t (dimensionless)");
     let panels = [
-        Panel::new("Twenty points that repel each other", linear("x, turned"), linear("z, turned"), curves)
-            .to_equal_scale(),
         Panel::new(
-            "What is left to lose: energy above the end's",
+            "Twenty charges slide to a state of rest",
+            linear("x, turned (dimensionless)"),
+            linear("z, turned (dimensionless)"),
+            curves,
+        )
+        .to_equal_scale(),
+        Panel::new(
+            "Their energy falls to that of the end",
             time,
-            logarithmic("energy (dimensionless)"),
+            logarithmic("energy above the end's (dimensionless)"),
             vec![Curve::line("", colour::VARIATIONAL, 3, energy)],
         ),
         Panel::new(
-            "How far off the sphere: the largest of twenty",
+            "All stay on the sphere to a few roundings",
             logarithmic("time t (dimensionless)"),
-            linear("||q|² − 1| (2.2·10⁻¹⁶)"),
+            linear("||q|² − 1|, largest of twenty (2.2·10⁻¹⁶)"),
             vec![Curve::line("", colour::VARIATIONAL, 1, off)],
         ),
     ];
-    picture::write_to(path, "fekete", [2100, 680], 3, &panels)
+    picture::write_to(path, "fekete", [1860, 660], 3, &panels)
 }

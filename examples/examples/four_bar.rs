@@ -204,7 +204,8 @@ fn draw(motion: &[Moment<8>], driven: &[Moment<8>]) -> Result<PathBuf> {
         shown.clone().map(|moment| (moment.time, value(moment))).collect()
     };
     let energy = vec![
-        Curve::line("work of the motor", colour::RUNGE_KUTTA, 3, over_time(|at| at.account.work)),
+        Curve::line("work of the motor", colour::RUNGE_KUTTA, 3, over_time(|at| at.account.work))
+            .dashed(Dash::DashDotted),
         Curve::line("taken by the joints", colour::EULER, 3, over_time(|at| at.account.dissipated))
             .dashed(Dash::Dashed),
         Curve::line("energy above rest", colour::VARIATIONAL, 3, over_time(|at| at.account.change)),
@@ -213,20 +214,26 @@ fn draw(motion: &[Moment<8>], driven: &[Moment<8>]) -> Result<PathBuf> {
 
     let time = linear("time t (s)");
     let panels = [
-        Panel::new("A crank's turn", linear("x (m)"), linear("y (m)"), linkage).to_equal_scale(),
         Panel::new(
-            "What the joints carry while the motor drives",
+            "One turn of the crank: the coupler's path closes",
+            linear("x (m)"),
+            linear("y (m)"),
+            linkage,
+        )
+        .to_equal_scale(),
+        Panel::new(
+            "Joints carry most at the end of the driven turn",
             linear("angle of the crank from rest (°)"),
             linear("reaction (N)"),
             joints.into(),
         ),
-        Panel::new("Where the energy goes", time, linear("energy (J)"), energy),
+        Panel::new("The joints take all the work of the motor", time, linear("energy (J)"), energy),
         Panel::new(
-            "How far off the constraints: the largest of eight",
+            "The constraints hold to a few roundings",
             time,
-            linear("|g| (2.2·10⁻¹⁶ m)"),
+            linear("|g|, largest of eight (2.2·10⁻¹⁶ m)"),
             off,
         ),
     ];
-    picture::write("four_bar", [1700, 1240], 2, &panels)
+    picture::write("four_bar", [1240, 1160], 2, &panels)
 }

@@ -176,8 +176,9 @@ fn main() -> Result<()> {
         constants.difference_error
     );
 
-    let past = ([("k = 0", 0), ("k = 8", 8), ("k = 16", 16), ("k = 22", 22), ("k = 28", 28)], 0, 30);
-    let behind = ([("k = 11", 11), ("k = 13", 13), ("k = 15", 15), ("k = 17", 17), ("k = 19", 19)], 10, 20);
+    let past = ([("t = 0", 0), ("t = 0.8", 8), ("t = 1.6", 16), ("t = 2.2", 22), ("t = 2.8", 28)], 0, 30);
+    let behind =
+        ([("t = 1.1", 11), ("t = 1.3", 13), ("t = 1.5", 15), ("t = 1.7", 17), ("t = 1.9", 19)], 10, 20);
     let theory = plane.by(Trapezoidal, 0.1).hamilton_jacobi();
 
     // Lines of the sections in closed form, over the range that the fan covers at that time.
@@ -194,7 +195,7 @@ fn main() -> Result<()> {
         .map(|(label, k)| (label, section_points(&dense, k)));
     let path = picture::write(
         "hamilton_jacobi",
-        [1600, 2000],
+        [1240, 1740],
         2,
         &[
             fan_panel("Damped oscillator: all characteristics meet", h, &fan, &caustics(&fan)),
@@ -231,14 +232,23 @@ fn fan_panel<'a>(
     fan: &[Characteristic<f64, 1>],
     caustics: &[Caustic<1>],
 ) -> Panel<'a> {
+    // Few long steps: lines from state to state would be taken for the motion.
+    let has_dots = fan.len() < 20;
     let mut curves: Vec<_> = fan
         .iter()
         .enumerate()
         .map(|(index, characteristic)| {
-            let label = if index == 0 { "characteristics" } else { "" };
+            let label = if index > 0 {
+                ""
+            } else if has_dots {
+                "characteristics, a dot a step"
+            } else {
+                "characteristics"
+            };
             let states = characteristic.states.iter().enumerate();
             let points = states.map(|(k, state)| (k as f64 * h, state.q[0])).collect();
-            Curve::line(label, colour::VARIATIONAL, 1, points)
+            let curve = Curve::line(label, colour::VARIATIONAL, 1, points);
+            if has_dots { curve.marked(Mark::Dot, 1) } else { curve }
         })
         .collect();
     let points = caustics.iter().map(|c| ((c.step as f64 + c.fraction) * h, c.q[0])).collect();
@@ -308,7 +318,7 @@ fn wave_panel<'a>(
     let dense = fan(1601, steps)?;
     let caustic = dense.iter().flat_map(|characteristic| &characteristic.caustics);
     let points = caustic.map(|caustic| (caustic.q[0], caustic.q[1])).collect();
-    curves.push(Curve::marks("caustic, det Q = 0", colour::RUNGE_KUTTA, Mark::Dot, points));
+    curves.push(Curve::line("caustic, det Q = 0", colour::RUNGE_KUTTA, 4, points));
     let (x, y) = (linear("q₀ (dimensionless)"), linear("q₁ (dimensionless)"));
     Ok(Panel::new(title, x, y, curves).to_equal_scale())
 }

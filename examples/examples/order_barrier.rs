@@ -90,9 +90,10 @@ fn main() -> Result<()> {
         Method::of("composition (8)", (colour::FOURTH, Mark::Disc), Composition::kahan_li_8(Midpoint))?,
     ];
     report(&methods);
-    let titles = ["At the start: a bᵀ − b aᵀ", "At the end: bᵀd − dᵀb"];
+    let titles =
+        ["Start, a bᵀ − b aᵀ: 0 up to order 2, or ∝ h⁴", "End, bᵀd − dᵀb: one-sided is off too, ∝ h⁴"];
     let panels = [0, 1].map(|end| panel(titles[end], &methods, end));
-    let path = picture::write("order_barrier", [1500, 950], 2, &panels)?;
+    let path = picture::write("order_barrier", [1240, 800], 2, &panels)?;
     println!("\nPicture: {}", path.display());
     Ok(())
 }

@@ -47,8 +47,8 @@ fn main() -> Result<()> {
     let runge_kutta = baseline::states(&SYSTEM, Method::RungeKutta4, H, start)?;
     let motions = [
         Motion::of(euler, "explicit Euler", colour::EULER, Mark::Triangle)?,
-        Motion::of(runge_kutta, "Runge–Kutta 4", colour::RUNGE_KUTTA, Mark::Circle)?,
-        Motion::of(midpoint, "variational midpoint", colour::VARIATIONAL, Mark::Disc)?,
+        Motion::of(runge_kutta, "Runge–Kutta 4", colour::RUNGE_KUTTA, Mark::Cross)?,
+        Motion::of(midpoint, "variational midpoint", colour::VARIATIONAL, Mark::Circle)?,
     ];
 
     println!("Largest error over {STEPS} steps of h = {H}, dimensionless");
@@ -101,21 +101,27 @@ fn energy(state: &State<f64, 1>) -> f64 {
 fn draw(motions: &[Motion]) -> Result<PathBuf> {
     let time = linear("time t (dimensionless)");
     let panels = [
-        panel("Explicit Euler is off by far", [time, linear("q (dimensionless)")], motions, |t, state| {
-            (t, state.q[0])
-        }),
+        panel(
+            "Midpoint and Runge–Kutta 4 are on the curve",
+            [time, linear("q (dimensionless)")],
+            motions,
+            |t, state| (t, state.q[0]),
+        ),
         panel(
             "All spiral in, Euler too late",
             [linear("q (dimensionless)"), linear("v (dimensionless)")],
             motions,
             |_, state| (state.q[0], state.p[0] / SYSTEM.m),
         ),
-        panel("The energy falls to friction", [time, linear("E (dimensionless)")], motions, |t, state| {
-            (t, energy(state))
-        }),
+        panel(
+            "Energy falls to friction, Euler's too late",
+            [time, linear("E (dimensionless)")],
+            motions,
+            |t, state| (t, energy(state)),
+        ),
         errors(time, motions),
     ];
-    picture::write("oscillator", [1600, 1200], 2, &panels)
+    picture::write("oscillator", [1240, 1160], 2, &panels)
 }
 
 fn panel<'a>(
@@ -143,7 +149,7 @@ fn errors<'a>(time: Axis<'a>, motions: &'a [Motion]) -> Panel<'a> {
         Curve::line(motion.method, motion.colour, 3, points).dashed(dash)
     });
     Panel::new(
-        "At this h Runge–Kutta 4 is nearer by its order",
+        "At equal h Runge–Kutta 4 gains by its order",
         time,
         logarithmic("|E − exact| (dimensionless)"),
         curves.collect(),

@@ -61,11 +61,16 @@ fn main() -> Result<()> {
     };
     let (angle, momentum) = (linear("angle q (rad)"), linear("momentum p (dimensionless)"));
     let panels = [
-        panel("Angle: discrete points on the curve", linear("time t (dimensionless)"), angle, |t, state| {
-            (t, state.q[0])
+        panel(
+            "The discrete angle stays on the curve",
+            linear("time t (dimensionless)"),
+            angle,
+            |t, state| (t, state.q[0]),
+        ),
+        panel("From near the top it spirals in to rest", angle, momentum, |_, state| {
+            (state.q[0], state.p[0])
         }),
-        panel("Phase plane", angle, momentum, |_, state| (state.q[0], state.p[0])),
     ];
-    println!("\nPicture: {}", picture::write("pendulum", [1600, 640], 2, &panels)?.display());
+    println!("\nPicture: {}", picture::write("pendulum", [1240, 560], 2, &panels)?.display());
     Ok(())
 }

@@ -190,7 +190,11 @@ fn draw(sections: &[Vec<Orbit>], path: Option<PathBuf>) -> Result<PathBuf> {
         ("chaotic orbits", colour::RUNGE_KUTTA),
         ("as far as the energy reaches", colour::REFERENCE),
     ];
-    let titles = ["Energy 1/12", "Energy 1/8", "Energy 1/6, that of escape"];
+    let titles = [
+        "E = 1/12: all orbits lie on curves",
+        "E = 1/8: chaos surrounds islands of regular motion",
+        "E = 1/6, that of escape: chaos, and islands (white where no orbit starts)",
+    ];
     let panels: Vec<Panel<'_>> = (sections.iter().zip(ENERGIES).zip(titles))
         .map(|((orbits, (_, energy)), title)| {
             let (y, p) =
@@ -198,7 +202,7 @@ fn draw(sections: &[Vec<Orbit>], path: Option<PathBuf>) -> Result<PathBuf> {
             Panel::of_raster(title, y, p, raster(orbits, energy), &classes).to_equal_scale()
         })
         .collect();
-    picture::write_to(path, "poincare", [2000, 640], 3, &panels)
+    picture::write_to(path, "poincare", [1000, 2340], 1, &panels)
 }
 
 /// A pixel where an orbit passes, the chaotic ones below; and where the energy ends.

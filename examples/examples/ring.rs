@@ -368,7 +368,7 @@ fn draw(motions: &Motions, plain: &Balance, modified: &Balance) -> Result<[PathB
             ],
         ),
     ];
-    let path = picture::write("ring", [1600, 640], 2, &falling)?;
+    let path = picture::write("ring", [1240, 560], 2, &falling)?;
 
     let errors = |title, y: Axis<'static>, quantity: fn(&Motion) -> &Vec<f64>| {
         let curve = |label, colour, motion| {
@@ -390,8 +390,13 @@ fn draw(motions: &Motions, plain: &Balance, modified: &Balance) -> Result<[PathB
         Curve::line("∫ 2R̃ dt", colour::REFERENCE, 2, lines(modified.taken(H), SHOWN)).dashed(Dash::Dashed),
     ];
     let unexplained = vec![
-        Curve::line("of E, by 2R", colour::FOURTH, 2, largest_of_fifty(&plain.remainder(H)))
-            .dashed(Dash::Dashed),
+        Curve::line(
+            "of E, by 2R (dip: change of sign)",
+            colour::FOURTH,
+            2,
+            largest_of_fifty(&plain.remainder(H)),
+        )
+        .dashed(Dash::Dashed),
         Curve::line("of Ẽ, by 2R̃", colour::VARIATIONAL, 2, largest_of_fifty(&modified.remainder(H))),
     ];
     let errors = [
@@ -401,7 +406,7 @@ fn draw(motions: &Motions, plain: &Balance, modified: &Balance) -> Result<[PathB
             |motion| &motion.energy,
         ),
         errors(
-            "Angular momentum: without friction midpoint has no error",
+            "Angular momentum: ahead as well",
             logarithmic("|J − reference|, largest of 50 (dimensionless)")
                 .with_floor(1e-9)
                 .from_to(1e-9, 1e-1),
@@ -414,9 +419,9 @@ fn draw(motions: &Motions, plain: &Balance, modified: &Balance) -> Result<[PathB
             losses,
         ),
         Panel::new(
-            "Energy that friction does not explain: of Ẽ far less",
+            "Not explained by friction: less of Ẽ than of E",
             axis,
-            logarithmic("|energy + ∫ friction dt − energy(0)|").from_to(1e-5, 1e-1),
+            logarithmic("|energy + ∫ friction dt − energy(0)| (dimensionless)").from_to(1e-5, 1e-1),
             unexplained,
         ),
     ];
@@ -424,7 +429,7 @@ fn draw(motions: &Motions, plain: &Balance, modified: &Balance) -> Result<[PathB
         "{}-errors.svg",
         path.file_stem().context("a name of the picture")?.to_string_lossy()
     ));
-    results::save(&second, &picture::svg([1600, 1200], 2, &errors)?)?;
+    results::save(&second, &picture::svg([1240, 1160], 2, &errors)?)?;
     Ok([path, second])
 }
 

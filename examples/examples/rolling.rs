@@ -264,19 +264,19 @@ fn draw(damped: &[Moment], free: &[Moment], bowl: &[Vec<(f64, f64)>; 3]) -> Resu
         Panel::new("Pushed off backwards, it turns about", linear("x (m)"), linear("y (m)"), floor)
             .to_equal_scale(),
         Panel::new(
-            "From backwards to forwards, with friction or without",
+            "Without friction it ends forwards, as fast",
             linear("speed of the axle (m/s)"),
             linear("turning, at a wheel (m/s)"),
             turning,
         )
         .to_equal_scale(),
-        Panel::new("Where the energy goes", time, linear("energy (J)"), energy),
+        Panel::new("The bearings take the energy", time, linear("energy (J)"), energy),
         Panel::new(
-            "Without friction, in a bowl: energy that should stay",
+            "In a bowl midpoint loses energy, order 8 does not",
             time,
             linear("energy gained (%)"),
             drift,
         ),
     ];
-    picture::write("rolling", [1700, 1240], 2, &panels)
+    picture::write("rolling", [1240, 1160], 2, &panels)
 }

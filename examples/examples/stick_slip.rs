@@ -228,7 +228,7 @@ fn draw(
     ];
     let panels = [
         Panel::new(
-            "Stick and slip: one limit cycle from all starts",
+            "Stick and slip: both starts reach one limit cycle",
             linear("stretch of the spring (m)"),
             linear("velocity of the block (m/s)"),
             phases,
@@ -246,5 +246,5 @@ fn draw(
             creeping,
         ),
     ];
-    picture::write("stick_slip", [2100, 640], 3, &panels)
+    picture::write("stick_slip", [1000, 1500], 1, &panels)
 }

@@ -114,7 +114,7 @@ fn main() -> Result<()> {
             start,
         )?,
         curve(
-            "radial, as R in polar coordinates",
+            "radial, as R in polar coordinates: exactly 0",
             (colour::REFERENCE, Dash::Dotted),
             &PolarRing { radial: k },
             &angle,
@@ -171,7 +171,7 @@ fn curve<L: Discrete<Midpoint, 2, Scalar = f64>>(
 
 fn draw(curves: &[Curve<'static>]) -> Result<PathBuf> {
     let panel = Panel::new(
-        "Angular momentum is kept only where the discrete friction is radial",
+        "By midpoint, angular momentum is kept only where the discrete friction is radial",
         linear("time t (dimensionless)"),
         // Exact zeros stand at the floor.
         logarithmic("|J(t) − J(0)| (dimensionless)").with_floor(1e-18),

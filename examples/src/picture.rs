@@ -141,7 +141,8 @@ pub fn write_to(
     Ok(path)
 }
 
-/// The picture, `size` pixels wide and high, with its panels in rows of `columns`.
+/// The picture, `size` pixels wide and high, with its panels in rows of `columns`. Panels that tell the same
+/// curves apart have one legend above all.
 ///
 /// # Errors
 /// A picture that cannot be drawn: also words that do not fit.
@@ -151,10 +152,16 @@ pub fn svg(size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -> Result<Strin
     {
         let root = SVGBackend::with_string(&mut svg, units.into()).into_drawing_area();
         root.fill(&WHITE)?;
-        let areas = root.split_evenly((panels.len().div_ceil(columns), columns));
+        let common = common_legend(panels);
+        let entries = common.map_or_else(Vec::new, |panel| legend(panel, size[0] as i32));
+        let above = if entries.is_empty() { 0 } else { MARGIN + LEGEND_ROW * entries.len() as i32 };
+        let (head, body) = root.split_vertically(above * PIXEL);
+        draw_legend(&head, &entries, MARGIN, size[0] as i32)?;
+        let areas = body.split_evenly((panels.len().div_ceil(columns), columns));
         for (areas, panels) in areas.chunks(columns).zip(panels.chunks(columns)) {
             let width = areas[0].dim_in_pixel().0 as i32 / PIXEL;
-            let legends: Vec<_> = panels.iter().map(|panel| legend(panel, width)).collect();
+            let own = |panel| if common.is_none() { legend(panel, width) } else { Vec::new() };
+            let legends: Vec<_> = panels.iter().map(own).collect();
             // Axes side by side are as high as each other.
             let rows = legends.iter().map(|rows| rows.len()).max().unwrap_or(0);
             for ((area, panel), legend) in areas.iter().zip(panels).zip(legends) {
@@ -168,6 +175,16 @@ pub fn svg(size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -> Result<Strin
         panel.raster.as_ref().map(|raster| raster.address(&colours))
     });
     Ok(svg::finished(svg, size, PIXEL as u32, &images.collect::<Result<Vec<_>>>()?))
+}
+
+/// The panel whose legend holds the entries of every other, if each has some: one legend tells all apart.
+fn common_legend<'p, 'a>(panels: &'p [Panel<'a>]) -> Option<&'p Panel<'a>> {
+    let entries = |panel: &'p Panel<'a>| panel.curves.iter().filter(|curve| !curve.label.is_empty());
+    let is_told = |panel, curve: &Curve<'_>| entries(panel).any(|entry| entry.has_the_look_of(curve));
+    let most = panels.iter().max_by_key(|panel| entries(panel).count())?;
+    let is_common =
+        |panel| entries(panel).next().is_some() && entries(panel).all(|curve| is_told(most, curve));
+    (panels.len() > 1 && panels.iter().all(is_common)).then_some(most)
 }
 
 /// How wide a text is, in pixels, for all that is known without a font. (plotters writes sizes that are
@@ -206,24 +223,13 @@ fn draw<'a>(
     let [width, height] = [area.dim_in_pixel().0, area.dim_in_pixel().1].map(|units| units as i32 / PIXEL);
     let above = MARGIN + TITLE + 16 + LEGEND_ROW * legend_rows as i32;
     let [across, up] = [width - MARGIN - Y_LABELS - RIGHT, height - above - X_LABELS - MARGIN];
-    let fits = |text: &str, size, room| {
-        ensure!(width_of(text, size) <= room, "{text:?} is too wide for a panel of {width} pixels");
-        Ok(())
-    };
-    fits(panel.title, TITLE, width - MARGIN - RIGHT)?;
-    fits(panel.x.label, TEXT, across + Y_LABELS)?;
-    fits(panel.y.label, TEXT, height)?;
+    check_width(panel.title, TITLE, width - MARGIN - RIGHT)?;
+    check_width(panel.x.label, TEXT, across + Y_LABELS)?;
+    check_width(panel.y.label, TEXT, height)?;
     let (head, body) = area.split_vertically(above * PIXEL);
     let centre = (width + Y_LABELS + MARGIN - RIGHT) / 2 - width_of(panel.title, TITLE) / 2;
     text(&head, panel.title, (centre.max(MARGIN), MARGIN), TITLE)?;
-    for (row, entries) in legend.iter().enumerate() {
-        let middle = MARGIN + TITLE + 12 + LEGEND_ROW * row as i32 + LEGEND_ROW / 2;
-        for (left, curve) in entries {
-            fits(curve.label, TEXT, width - left - SAMPLE)?;
-            sample(&head, curve, (*left, middle))?;
-            text(&head, curve.label, (left + SAMPLE, middle - TEXT / 2 - 1), TEXT)?;
-        }
-    }
+    draw_legend(&head, legend, MARGIN + TITLE + 12, width)?;
     let corners = panel.raster.iter().flat_map(|raster| [0, 1].map(|k| (raster.x[k], raster.y[k])));
     let points: Vec<_> =
         panel.curves.iter().flat_map(|curve| &curve.points).copied().chain(corners).collect();
@@ -269,6 +275,25 @@ fn draw<'a>(
             chart.draw_series([Polygon::new(points, curve.colour.filled())])?;
         } else if let Some((mark, stride)) = curve.mark {
             marks(&mut chart, mark, curve.colour, points.into_iter().step_by(stride))?;
+        }
+    }
+    Ok(())
+}
+
+/// That words fit in so many pixels.
+fn check_width(words: &str, size: i32, room: i32) -> Result<()> {
+    ensure!(width_of(words, size) <= room, "{words:?} is too wide for {room} pixels");
+    Ok(())
+}
+
+/// The rows of a legend, the first from `top` on.
+fn draw_legend(area: &Area<'_>, legend: &[Vec<(i32, &Curve<'_>)>], top: i32, width: i32) -> Result<()> {
+    for (row, entries) in legend.iter().enumerate() {
+        let middle = top + LEGEND_ROW * row as i32 + LEGEND_ROW / 2;
+        for (left, curve) in entries {
+            check_width(curve.label, TEXT, width - left - SAMPLE)?;
+            sample(area, curve, (*left, middle))?;
+            text(area, curve.label, (left + SAMPLE, middle - TEXT / 2 - 1), TEXT)?;
         }
     }
     Ok(())
@@ -349,6 +374,21 @@ mod tests {
             assert!(svg.lines().any(|line| line == word), "{word}");
         }
         assert!(svg.contains("stroke-dasharray"));
+        Ok(())
+    }
+
+    #[test]
+    fn panels_of_the_same_curves_have_one_legend() -> Result<()> {
+        let line = |label, colour| Curve::line(label, colour, 1, vec![(0.0, -1.0), (1.0, 1.0)]);
+        let names = |second: Vec<Curve<'_>>| -> Result<usize> {
+            let first = vec![line("a line", colour::REFERENCE), line("another", colour::EULER)];
+            let panels = [first, second].map(|curves| Panel::new("Title", linear("t"), linear("q"), curves));
+            let svg = svg([800, 300], 2, &panels)?;
+            Ok(svg.lines().filter(|word| *word == "a line").count())
+        };
+        assert_eq!(names(vec![line("a line", colour::REFERENCE)])?, 1);
+        assert_eq!(names(vec![line("a line", colour::EULER)])?, 2, "another colour");
+        assert_eq!(names(vec![line("", colour::REFERENCE)])?, 1, "no legend in the second");
         Ok(())
     }
 

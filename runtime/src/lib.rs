@@ -1,3 +1,4 @@
+#![cfg_attr(all(doc, feature = "theory"), doc = include_str!("guide/pictures/ring.link"))]
 #![cfg_attr(feature = "theory", doc = include_str!("guide/front_page.md"))]
 #![cfg_attr(feature = "theory", doc = "")]
 #![cfg_attr(feature = "theory", doc = include_str!("guide/chapters.md"))]

@@ -4,10 +4,12 @@ use anyhow::Result;
 use xshell::cmd;
 
 use crate::project;
+use crate::tidy::guide_pictures;
 
-/// Writes the snapshots of expansions, and the messages of the diagnostics.
+/// Writes the snapshots of expansions, the messages of the diagnostics, and the guide's pictures.
 pub fn run() -> Result<()> {
     let shell = project::shell()?;
+    guide_pictures::write(&shell)?;
     cmd!(shell, "cargo test -p dalembert-macros snapshots").env("UPDATE_SNAPSHOTS", "1").run()?;
     cmd!(shell, "cargo test -p dalembert-diagnostics").env("TRYBUILD", "overwrite").run()?;
     cmd!(shell, "git --no-pager diff --stat").quiet().run()?;

@@ -33,7 +33,7 @@ cargo xtask TASK
 tidy                    formatting, line widths, circles of modules, prose, public names, links: in seconds
 quick [PATH…]           the tests that belong to edited paths, or to those that git status names
 places                  how many files a new rule, function or option touches, by ARCHITECTURE.md
-bless                   writes the snapshots of expansions and the messages of diagnostics anew
+bless [pictures]        writes the snapshots of expansions, the messages of diagnostics and the guide's pictures anew
 page c                  follows the chapter of docs/ on C, by gcc and by clang
 page fmu                … on functional mock-up units, and holds the unit against FMPy
 page firmware-c         … on C on a microcontroller, for emulated ones
@@ -77,6 +77,7 @@ fn run() -> Result<()> {
         ["quick", ref paths @ ..] => quick::run(paths)?,
         ["places"] => tidy::places::print()?,
         ["bless"] => bless::run()?,
+        ["bless", "pictures"] => tidy::guide_pictures::write(&project::shell()?)?,
         ["page", "c"] => page::c::run()?,
         ["page", "fmu"] => page::fmu::run()?,
         ["page", "firmware-c"] => page::firmware_c::run()?,

@@ -6,6 +6,7 @@ mod corrections_page;
 mod errors;
 mod floors;
 mod formatting;
+pub mod guide_pictures;
 mod kept;
 mod links;
 mod pages;
@@ -26,7 +27,7 @@ use crate::project;
 /// A check: what it found, each on a line of its own.
 type Check = fn(&Shell) -> Result<Vec<String>>;
 
-const CHECKS: [(&str, Check); 11] = [
+const CHECKS: [(&str, Check); 12] = [
     ("line widths of comments", widths::check),
     ("circles of modules", circles::check),
     ("floors of the runtime", |_| floors::check()),
@@ -34,6 +35,7 @@ const CHECKS: [(&str, Check); 11] = [
     ("texts of errors", |_| errors::check()),
     ("openings of documentation", |_| prose::check()),
     ("links of pages", links::check),
+    ("pictures of the guide", guide_pictures::check),
     ("tests that pages name", |_| corrections_page::check()),
     ("figures and dependencies in the README", pages::check),
     ("places to touch", |_| places::check()),

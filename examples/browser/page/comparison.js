@@ -1,4 +1,4 @@
-// The same motion by a rule, by RK4 with the same step size, and by a reference.
+// The same motion by a rule, by RK4 with the same step size or at the same cost, and by a reference.
 
 import { History } from "./history.js";
 import { RuleRun, RungeKuttaRun } from "./runs.js";
@@ -7,10 +7,12 @@ import { RuleRun, RungeKuttaRun } from "./runs.js";
 const PARTS = 4;
 // States behind the present one that are drawn.
 const TRAIL = 300;
+// The distance of a coordinate from the reference's, in rad or units of length, from which two motions are said to have parted.
+const APART = 1;
 
 class Course {
     constructor(scene, run, parts) {
-        Object.assign(this, { scene, run, parts, trail: [], failure: null });
+        Object.assign(this, { scene, run, parts, trail: [], failure: null, parted: null });
         this.energy = new History(scene.span);
         this.momentum = new History(scene.span);
         this.look(0);
@@ -65,7 +67,21 @@ export class Comparison {
     step() {
         this.steps += 1;
         this.#since += 1;
-        for (const course of Object.values(this.courses)) course.step(this.time);
+        const courses = Object.values(this.courses);
+        for (const course of courses) course.step(this.time);
+        const { q } = this.courses.reference.present;
+        for (const course of courses) {
+            const distances = q.map((value, i) => Math.abs(course.present.q[i] - value));
+            if (course.parted === null && Math.max(...distances) > APART) course.parted = this.time;
+        }
+    }
+
+    // Gives RK4 as many steps to one of the rule as cost the same, by a measurement of both.
+    equalCost() {
+        const [rule, rungeKutta] = ["rule", "rungeKutta"].map((kind) => this.rate(kind));
+        if (rule === 0 || rungeKutta === 0) return;
+        this.courses.rungeKutta.parts = Math.max(1, Math.round(rungeKutta / rule));
+        this.changeStepSize(this.h);
     }
 
     changeParameters(parameters) {

@@ -25,7 +25,7 @@ class Page {
             radio.addEventListener("change", () => this.open(radio.value));
         }
         for (const id of SLIDERS) element(id).addEventListener("input", () => this.slide(id));
-        element("rule").addEventListener("change", () => this.restart());
+        for (const id of ["rule", "share"]) element(id).addEventListener("change", () => this.restart());
         element("restart").addEventListener("click", () => this.restart());
         element("pause").addEventListener("click", () => this.pause());
         this.open(document.querySelector("input[name=scene]:checked").value);
@@ -37,6 +37,7 @@ class Page {
         this.scene = scenes[name];
         const { parameters, h, speed, ranges } = this.scene;
         this.values = { ...parameters, h, speed };
+        element("rule").value = this.scene.rule;
         for (const id of SLIDERS) {
             element(`${id}-control`).hidden = !(id in ranges);
             if (id in ranges) element(id).value = placeOf(this.values[id], ranges[id]);
@@ -57,7 +58,10 @@ class Page {
         const { h, friction, gravity } = this.values;
         this.rule = element("rule").value;
         this.comparison = new Comparison(this.module, this.scene, this.rule, { friction, gravity }, h);
-        this.names = { reference: "reference", rule: rules[this.rule], rungeKutta: methods.rungeKutta.name };
+        if (element("share").value === "cost") this.comparison.equalCost();
+        const { parts } = this.comparison.courses.rungeKutta;
+        const rungeKutta = methods.rungeKutta.name + (parts > 1 ? `, h/${parts}` : "");
+        this.names = { reference: "reference", rule: rules[this.rule], rungeKutta };
         this.owed = 0;
         this.measured = -Infinity;
         for (const method of Object.keys(methods)) show(`${method}-name`, this.names[method]);
@@ -116,10 +120,14 @@ class Page {
             const [histories, ends] = [of((course) => course[quantity]), of((course) => course.present[quantity])];
             drawChart(element(quantity), histories, ends, this.names, axes);
         }
-        for (const [method, { present, failure, time }] of Object.entries(courses)) {
+        for (const [method, { present, failure, time, parted }] of Object.entries(courses)) {
             show(`${method}-energy`, number(present.energy, 5));
             show(`${method}-momentum`, number(present.momentum, 5));
-            show(`${method}-note`, failure ? `ended at t = ${number(time, 1)}: ${failure}` : "");
+            const apart = scene.isChaotic && parted !== null;
+            const note = apart
+                ? `${this.names[method]}: another motion than the reference's since t = ${number(parted, 1)}. From there on momenta do not compare, energies do.`
+                : "";
+            show(`${method}-note`, failure ? `ended at t = ${number(time, 1)}: ${failure}` : note);
         }
         show("time", number(time, 1));
         show("steps", String(steps));

@@ -2,6 +2,7 @@
 //
 // `ranges`: sliders go from the least to the most in equal ratios; with `zero` their left end is 0.
 // `span`: how much time the charts begin with. `widest`: a curve that leaves this is cut off.
+// `rule`: the one that the scene begins with. `isChaotic`: two methods soon show different motions.
 // `points`: what is drawn of q, joined, the last one with the way behind it; within `reach` of the middle.
 
 const ring = {
@@ -9,6 +10,8 @@ const ring = {
     about: "A particle in the potential s(s − 1)², s = |q|², with drag; all quantities are dimensionless.",
     parameters: { friction: 1e-3 },
     start: { q: [0, 1.15549918674982], v: [0.5, 0] },
+    rule: "midpoint",
+    isChaotic: false,
     h: 0.2,
     speed: 100,
     ranges: {
@@ -29,9 +32,12 @@ const ring = {
 
 const doublePendulum = {
     name: "double_pendulum",
-    about: "Two masses of 1 kg on rods of 1 m, with the same friction in both joints. Without friction the energy is constant, without gravity the angular momentum too.",
+    about: "Two masses of 1 kg on rods of 1 m, with the same friction in both joints. Without friction the energy is constant, without gravity the angular momentum too. The motion is chaotic.",
     parameters: { friction: 0, gravity: 9.81 },
     start: { q: [2, 2.5], v: [0, 0] },
+    // Its energy swings by some 1e-4 J where that of the rules of order 2 has spikes.
+    rule: "gauss",
+    isChaotic: true,
     h: 0.02,
     speed: 10,
     ranges: {

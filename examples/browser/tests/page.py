@@ -107,8 +107,8 @@ def each_rule_has_its_energy(page, reference):
     for rule in ["midpoint", "trapezoidal", "gauss"]:
         # As the scene begins.
         choose(page, "double_pendulum")
-        choose_rule(page, rule)
         choose(page, "ring")
+        choose_rule(page, rule)
         time.sleep(0.5)
         page.wait("Number(document.getElementById('steps').textContent) > 300", 10)
         click(page, "pause")
@@ -128,6 +128,7 @@ def each_rule_has_its_energy(page, reference):
 def a_failure_is_said(page):
     """At h = 0.1 and without friction the midpoint rule's equations soon have no solution; RK4 goes on, to another energy."""
     choose(page, "double_pendulum")
+    choose_rule(page, "midpoint")
     page.wait("Number(document.getElementById('steps').textContent) > 10", 10)
     slide(page, "speed", 100)
     slide(page, "h", 0.1)
@@ -137,6 +138,45 @@ def a_failure_is_said(page):
     page.wait(f"Number(document.getElementById('steps').textContent) > {steps}", 10)
     require(page.evaluate("document.getElementById('rungeKutta-note').textContent") == "", "RK4 has ended too")
     print("failure: the page says why a run has ended, and the others go on")
+
+
+def equal_cost_is_shorter_steps(page):
+    """Without friction RK4 errs by its order less in shorter steps; the ring's energy is 0.275."""
+    errors, parts = [], 0
+    for share in ["step", "cost"]:
+        choose(page, "ring")
+        slide(page, "friction", 0)
+        page.evaluate(f"""{{
+            const choice = document.getElementById("share");
+            choice.value = "{share}";
+            choice.dispatchEvent(new Event("change"));
+        }}""")
+        name = page.evaluate("document.getElementById('rungeKutta-name').textContent")
+        require(name.startswith("RK4, h/") == (share == "cost"), f"RK4 is called {name} at equal {share}")
+        parts = int(name.removeprefix("RK4, h/")) if share == "cost" else 1
+        page.wait("Number(document.getElementById('time').textContent) > 100", 30)
+        first = reading(page, "reference-energy")
+        errors.append(abs(reading(page, "rungeKutta-energy") - first))
+    require(parts > 1 and errors[0] > 1e-2, f"at equal steps RK4 is off by {errors[0]}")
+    require(errors[1] < errors[0] / parts, f"in steps of h/{parts} RK4 is off by {errors[1]}, in steps of h by {errors[0]}")
+    page.evaluate("document.getElementById('share').value = 'step'")
+    print(f"equal cost: RK4 takes {parts} steps to one of the rule, and errs by {errors[1]:.0e} in place of {errors[0]:.0e}")
+
+
+def parting_is_said(page):
+    """Of the chaotic motion alone, and not before it is so."""
+    choose(page, "double_pendulum")
+    rule = page.evaluate("document.getElementById('rule').value")
+    require(rule == "gauss", f"the double pendulum begins with {rule}")
+    require(page.evaluate("document.getElementById('rungeKutta-note').textContent") == "", "RK4 has parted at the start")
+    slide(page, "speed", 100)
+    page.wait("document.getElementById('rungeKutta-note').textContent.includes('another motion')", 30)
+    require(reading(page, "time") > 1, "RK4 has parted within 1 s")
+    require(page.evaluate("document.getElementById('reference-note').textContent") == "", "the reference has parted from itself")
+    choose(page, "ring")
+    page.wait("Number(document.getElementById('time').textContent) > 200", 30)
+    require(page.evaluate("document.getElementById('rungeKutta-note').textContent") == "", "the ring is called chaotic")
+    print("chaos: the page says since when a motion is another")
 
 
 def differing(found, expected):
@@ -260,6 +300,8 @@ def main(address, runs, picture=None):
         step_size_is_what_the_slider_says(page)
         each_rule_has_its_energy(page, reference)
         a_failure_is_said(page)
+        equal_cost_is_shorter_steps(page)
+        parting_is_said(page)
         bits_are_the_hosts(page, address, reference)
         curves_are_where_the_hosts_run_says(page, reference)
         fits_a_telephone(page)

@@ -65,6 +65,13 @@ impl<'a> Curve<'a> {
         Self { label, colour, line: None, mark: Some((Mark::Block, 1)), is_area: true, points }
     }
 
+    /// Whether one entry of a legend does for both.
+    pub(super) fn has_the_look_of(&self, other: &Curve<'_>) -> bool {
+        let mark = |curve: &Curve<'_>| curve.mark.map(|(mark, _)| mark);
+        let look = |curve: &Curve<'_>| (curve.colour, curve.line, curve.is_area);
+        self.label == other.label && look(self) == look(other) && mark(self) == mark(other)
+    }
+
     /// The line broken.
     #[must_use]
     pub fn dashed(mut self, dash: Dash) -> Self {

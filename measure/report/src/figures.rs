@@ -1,4 +1,4 @@
-//! The figures: error against time for each scene, and the long run.
+//! The figures: error against time for some scenes, and the long run.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use dalembert_examples::results;
 
 use crate::frontier::{Point, points, unbeaten_by_finer};
 use crate::long_run;
-use crate::measured::{BATCH, Measured, QUANTITIES, SCENES};
+use crate::measured::{BATCH, Measured, QUANTITIES};
 
 /// How a method looks in every figure.
 type Look = (&'static str, RGBColor, Dash, Mark);
@@ -29,6 +29,14 @@ const SHOWN: [Look; 9] = [
     (BATCH, PEER, Dash::Dashed, Mark::Square),
 ];
 
+/// The scenes of the figure, with their titles: the others are in the tables.
+const DRAWN: [(&str, &str); 4] = [
+    ("ring", "Ring: lower left is better"),
+    ("double pendulum", "Double pendulum: lower left is better"),
+    ("FPUT chain", "FPUT chain: lower left is better"),
+    ("Kepler, e = 0.99", "Kepler, e = 0.99: lower left is better"),
+];
+
 /// The smallest errors shown: of states, and of the energy along the long run.
 const FLOORS: [f64; 2] = [1e-15, 1e-12];
 
@@ -37,24 +45,23 @@ const FLOORS: [f64; 2] = [1e-15, 1e-12];
 /// # Errors
 /// A file cannot be written.
 pub fn write(folder: &Path, measured: &Measured<'_>) -> Result<()> {
-    for (quantity, error) in QUANTITIES {
-        let label = format!("error of the {quantity} at the end (dimensionless)");
-        let panels = SCENES.map(|scene| {
-            let curves = curves(|method| {
-                let finer = unbeaten_by_finer(points(measured.records, scene, method, error));
-                finer.into_iter().map(|p| (p.seconds * 1e6, p.error)).collect()
-            });
-            let floored = logarithmic(&label).with_floor(FLOORS[0]).from_to(FLOORS[0], 1.0);
-            Panel::new(scene, logarithmic("time of one trajectory (µs)"), floored, curves)
+    let [(quantity, error), ..] = QUANTITIES;
+    let label = format!("error of the {quantity} at the end (dimensionless)");
+    let panels = DRAWN.map(|(scene, title)| {
+        let curves = curves(|method| {
+            let finer = unbeaten_by_finer(points(measured.records, scene, method, error));
+            finer.into_iter().map(|p| (p.seconds * 1e6, p.error)).collect()
         });
-        let svg = picture::svg([1600, 2800], 2, &panels)?;
-        results::save(&folder.join(quantity).with_extension("svg"), &svg)?;
-    }
+        let floored = logarithmic(&label).with_floor(FLOORS[0]).from_to(FLOORS[0], 1.0);
+        Panel::new(title, logarithmic("time of one trajectory (µs)"), floored, curves)
+    });
+    let svg = picture::svg([1240, 1240], 2, &panels)?;
+    results::save(&folder.join(quantity).with_extension("svg"), &svg)?;
     if measured.long.is_empty() {
         return Ok(());
     }
     let energy = |label| logarithmic(label).with_floor(FLOORS[1]).from_to(FLOORS[1], 1.0);
-    let title = format!("Of each method the run nearest to {} ms", long_run::SHOWN * 1e3);
+    let title = format!("Energy error of the run nearest to {} ms", long_run::SHOWN * 1e3);
     let along = curves(|method| {
         let mut largest = 0.0_f64;
         let samples = measured.samples.iter().filter(|sample| sample.method == method);
@@ -79,13 +86,13 @@ pub fn write(folder: &Path, measured: &Measured<'_>) -> Result<()> {
             along,
         ),
         Panel::new(
-            "What keeping it up to t = 20 000 costs",
+            "Its largest value up to t = 20 000, over cost",
             logarithmic("time of the whole run (ms)"),
             energy("largest |E − E reference| (dimensionless)"),
             cost,
         ),
     ];
-    results::save(&folder.join("long-run.svg"), &picture::svg([1600, 720], 2, &panels)?)
+    results::save(&folder.join("long-run.svg"), &picture::svg([1240, 640], 2, &panels)?)
 }
 
 /// The curves of the methods shown that have points.

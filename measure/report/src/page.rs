@@ -42,14 +42,13 @@ fn text(measured: &Measured<'_>) -> Result<String> {
     aims(&mut page, measured)?;
     writeln!(
         page,
-        "\n## Figures\n\nNine of the methods, this project's in colour, others in black and grey; all are in the tables.\n"
+        "\n## Figure\n\nNine of the methods on four of the scenes, this project's in colour, others in black and grey; all are in the tables.\n"
     )?;
-    for (quantity, _) in QUANTITIES {
-        writeln!(
-            page,
-            "![Error of the {quantity} over time, for each scene](speed-against-error/{quantity}.svg)\n"
-        )?;
-    }
+    let [(quantity, _), ..] = QUANTITIES;
+    writeln!(
+        page,
+        "![Error of the {quantity} over the time of one trajectory, for four scenes](speed-against-error/{quantity}.svg)\n"
+    )?;
     writeln!(
         page,
         "## Tables\n\nµs of one trajectory; – where no run reaches the error. A method without a row reaches none, or cannot step the scene.\n"

@@ -139,12 +139,12 @@ pub fn kepler() -> Result<Case> {
     for (energy, title, y) in [
         (
             true,
-            "Energy error, e = 0.9, 10 000 steps an orbit",
+            "Energy, e = 0.9: midpoint's error comes back",
             logarithmic("|E − E₀| (dimensionless)").with_floor(1e-12).from_to(1e-12, 10.0),
         ),
         (
             false,
-            "Angular momentum error: the midpoint rule's is rounding",
+            "Angular momentum: midpoint's error is rounding",
             logarithmic("|J/J₀ − 1| (dimensionless)").with_floor(1e-18).from_to(1e-18, 10.0),
         ),
     ] {
@@ -217,9 +217,9 @@ pub fn double_pendulum() -> Result<Case> {
         .map(|state| Ok(state?.energy(&system)? - energy))
         .collect::<Result<Vec<f64>>>()?;
     let panels = vec![Panel::new(
-        "Energy error, h = 0.02: largest within each 10 000 steps",
-        linear("steps (millions)"),
-        logarithmic("|E − 7| (dimensionless)"),
+        "Energy error at equal h: only Runge–Kutta 4 drifts",
+        linear("steps of h = 0.02 (millions)"),
+        logarithmic("|E − 7|, largest of 10 000 steps (dimensionless)").from_to(1e-9, 10.0),
         vec![
             Curve::line("Runge–Kutta 4", colour::RUNGE_KUTTA, 3, largest(runge_kutta.into_iter()))
                 .dashed(Dash::Dashed),
@@ -344,7 +344,7 @@ pub fn henon_heiles() -> Result<Case> {
     let panel =
         |title, curves| Panel::new(title, linear("y (dimensionless)"), linear("p_y (dimensionless)"), curves);
     let orbits = [
-        ("from (0.05, 0)", (0.05, 0.0), colour::REFERENCE, Mark::Circle),
+        ("from (y, p_y) = (0.05, 0)", (0.05, 0.0), colour::REFERENCE, Mark::Circle),
         ("(0.15, 0)", (0.15, 0.0), colour::VARIATIONAL, Mark::Disc),
         ("(0.2, 0)", (0.2, 0.0), colour::RUNGE_KUTTA, Mark::Triangle),
         ("(−0.1, 0.1)", (-0.1, 0.1), colour::FOURTH, Mark::Cross),

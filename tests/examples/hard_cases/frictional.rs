@@ -50,8 +50,8 @@ pub fn overdamped() -> Result<Case> {
         let marks = Curve::marks;
         let curves = vec![
             Curve::line("exact", colour::REFERENCE, 2, exact),
-            marks("midpoint", colour::VARIATIONAL, Mark::Disc, points(decay(Midpoint, ratio, 20)?)),
-            marks("fitted", colour::RUNGE_KUTTA, Mark::Circle, points(decay(Fitted, ratio, 20)?)),
+            marks("midpoint", colour::VARIATIONAL, Mark::Square, points(decay(Midpoint, ratio, 20)?)),
+            marks("fitted", colour::RUNGE_KUTTA, Mark::Disc, points(decay(Fitted, ratio, 20)?)),
             marks("one-sided", colour::EULER, Mark::Triangle, points(decay(OneSided, ratio, 20)?)),
         ];
         Ok(Panel::new(title, linear("steps"), linear("p/p₀ (dimensionless)"), curves))
@@ -75,7 +75,7 @@ pub fn overdamped() -> Result<Case> {
         ],
         rows,
         panels: vec![
-            panel("hr/m = 0.5: all decay", 0.5)?,
+            panel("hr/m = 1.5: all decay, fitted on the curve", 1.5)?,
             panel("hr/m = 20: the midpoint rule rings", 20.0)?,
         ],
         test: "damping.rs",
@@ -181,7 +181,7 @@ pub fn stick_slip() -> Result<Case> {
         head: &["ε", "hμ/ε", "slips at", "lowest q", "Newton iterations a step", "shortened"],
         rows,
         panels: vec![Panel::new(
-            "A block on a spring, the floor moves: −μ tanh(v/ε)",
+            "Friction −μ tanh(v/ε): no stick and slip at ε = 10⁻¹",
             linear("time t (dimensionless)"),
             linear("place of the block q (dimensionless)"),
             curves,

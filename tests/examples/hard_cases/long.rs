@@ -94,9 +94,9 @@ pub fn rounding() -> Result<Case> {
         head: &["rule", "steps n", "rms error", "mean error", "rms/(ε√n)"],
         rows,
         panels: vec![Panel::new(
-            "Relative energy error, harmonic oscillator, h = 0.1",
+            "Round-off grows faster than √n from 10⁶ steps on",
             logarithmic("number of steps n"),
-            logarithmic("rms error (dimensionless)"),
+            logarithmic("relative energy error, rms (dimensionless)"),
             curves,
         )],
         test: "rounding.rs",

@@ -58,7 +58,9 @@ impl Case {
         }
         let columns = self.panels.len().min(2);
         let rows = self.panels.len().div_ceil(columns);
-        let svg = picture::svg([800 * columns as u32, 600 * rows as u32], columns, &self.panels)?;
+        // As wide as a page shows them, about: its text stays legible.
+        let width = if columns == 1 { 800 } else { 620 };
+        let svg = picture::svg([width * columns as u32, 580 * rows as u32], columns, &self.panels)?;
         results::save(&folder.join(name).with_extension("svg"), &svg)
     }
 }

@@ -86,7 +86,7 @@ fn addresses(page: &str) -> impl Iterator<Item = &str> {
 fn leads_somewhere(folder: &Path, address: &str) -> bool {
     let is_of_rustdoc =
         ["static.files/", "trait.impl/", "type.impl/"].iter().any(|part| address.contains(part));
-    let is_elsewhere = address.starts_with("https:") || address.starts_with("http:");
+    let is_elsewhere = ["https:", "http:", "data:"].iter().any(|scheme| address.starts_with(scheme));
     is_of_rustdoc || is_elsewhere || folder.join(decoded(address)).exists()
 }
 
