@@ -267,7 +267,9 @@ fn draw<'a>(
     for curve in &panel.curves {
         let points = curve.points.iter().map(|&(at, value)| (panel.x.place(at), panel.y.place(value)));
         let points: Vec<_> = points.filter(|point| point.0.is_finite() && point.1.is_finite()).collect();
-        if let Some((width, dash)) = curve.line {
+        if let Some((width, dash)) = curve.line
+            && !points.is_empty()
+        {
             let style = svg::stroke(curve.colour, width, dash, PIXEL);
             chart.draw_series([PathElement::new(thinned(&points, pixel), style)])?;
         }

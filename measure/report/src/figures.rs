@@ -48,7 +48,7 @@ pub fn write(folder: &Path, measured: &Measured<'_>) -> Result<()> {
     let [(quantity, error), ..] = QUANTITIES;
     let label = format!("error of the {quantity} at the end (dimensionless)");
     let panels = DRAWN.map(|(scene, title)| {
-        let curves = curves(|method| {
+        let curves = curves(&SHOWN, |method| {
             let finer = unbeaten_by_finer(points(measured.records, scene, method, error));
             finer.into_iter().map(|p| (p.seconds * 1e6, p.error)).collect()
         });
@@ -62,7 +62,9 @@ pub fn write(folder: &Path, measured: &Measured<'_>) -> Result<()> {
     }
     let energy = |label| logarithmic(label).with_floor(FLOORS[1]).from_to(FLOORS[1], 1.0);
     let title = format!("Energy error of the run nearest to {} ms", long_run::SHOWN * 1e3);
-    let along = curves(|method| {
+    let is_run = |look: &Look| measured.long.iter().any(|record| record.method == look.0);
+    let shown: Vec<_> = SHOWN.into_iter().filter(is_run).collect();
+    let along = curves(&shown, |method| {
         let mut largest = 0.0_f64;
         let samples = measured.samples.iter().filter(|sample| sample.method == method);
         let largest = samples.map(|sample| {
@@ -73,7 +75,7 @@ pub fn write(folder: &Path, measured: &Measured<'_>) -> Result<()> {
     });
     // The line alone: it has hundreds of points.
     let along = along.into_iter().map(|curve| curve.marked_rarely(40)).collect();
-    let cost = curves(|method| {
+    let cost = curves(&shown, |method| {
         let runs = measured.long.iter().filter(|record| record.method == method);
         let runs = runs.map(|run| Point { seconds: run.seconds, error: run.error_to_20000 });
         unbeaten_by_finer(runs).into_iter().map(|run| (run.seconds * 1e3, run.error)).collect()
@@ -95,12 +97,12 @@ pub fn write(folder: &Path, measured: &Measured<'_>) -> Result<()> {
     results::save(&folder.join("long-run.svg"), &picture::svg([1240, 640], 2, &panels)?)
 }
 
-/// The curves of the methods shown that have points.
-fn curves(points: impl Fn(&str) -> Vec<(f64, f64)>) -> Vec<Curve<'static>> {
-    let curve = |(method, colour, dash, mark): Look| {
+/// The curves of methods, those without points too: one legend does for all panels.
+fn curves(methods: &[Look], points: impl Fn(&str) -> Vec<(f64, f64)>) -> Vec<Curve<'static>> {
+    let curve = |&(method, colour, dash, mark): &Look| {
         let mut points = points(method);
         points.retain(|point| point.0.is_finite() && point.1.is_finite());
-        (!points.is_empty()).then(|| Curve::line(method, colour, 2, points).dashed(dash).marked(mark, 1))
+        Curve::line(method, colour, 2, points).dashed(dash).marked(mark, 1)
     };
-    SHOWN.into_iter().filter_map(curve).collect()
+    methods.iter().map(curve).collect()
 }

@@ -57,7 +57,7 @@ pub fn svg(records: &[Record]) -> Result<String> {
             Panel::new(title, logarithmic("processor time a second of motion (µs)"), y, curves(&of, quantity))
         })
         .collect();
-    picture::svg([2100, 2100], 3, &panels)
+    picture::svg([1500, 1500], 3, &panels)
 }
 
 fn curves<'a>(runs: &[&Record], (_, value): Quantity) -> Vec<Curve<'a>> {
