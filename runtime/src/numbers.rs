@@ -34,7 +34,7 @@ pub use elementary::Elementary;
 pub(crate) use elementary::functions::{functions, names, one_by_one};
 pub use lanes::{LaneVector, Lanes, Mask};
 pub use linear::{Banded, EntriesOfMembers, Factored, MatricesOfMembers, NewtonMatrix};
-pub(crate) use linear::{determinant_sign, dot};
+pub(crate) use linear::{Pivoted, determinant_sign, dot};
 pub use members::{Blank, MemberVector, Members};
 pub(crate) use precision::Precision;
 pub use scalar::Scalar;

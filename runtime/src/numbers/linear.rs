@@ -11,10 +11,12 @@ mod banded;
 mod columns;
 mod dense;
 mod determinant;
+mod pivoted;
 
 pub use banded::Banded;
 pub(crate) use columns::by_columns;
 pub(crate) use determinant::determinant_sign;
+pub(crate) use pivoted::Pivoted;
 
 mod sealed {
     pub trait Sealed {}

@@ -8,7 +8,7 @@ use super::bordered::{Bordered, rounding_of_reactions};
 use super::nearest::{dependent, held, require_on};
 use super::rows::Rows;
 use super::undefined::undefined_on;
-use crate::numbers::{Factored, NewtonMatrix, Scalar};
+use crate::numbers::{Factored, NewtonMatrix, Pivoted, Scalar};
 use crate::step::equation::{OfRule, StepEquation};
 use crate::step::{ClosedForm, Discrete, Fused, Momenta, Segment, State, Step, StepError, StepKernel};
 use crate::system::{Constrained, Lagrangian};
@@ -43,7 +43,7 @@ where
 
 /// W, made ready to solve with, and its border.
 type Solved<L, R, const N: usize, const M: usize> = (
-    <<L as Fused<R, N>>::Matrix as NewtonMatrix<<L as Lagrangian<N>>::Scalar, N>>::Factored,
+    Pivoted<<L as Lagrangian<N>>::Scalar, <L as Fused<R, N>>::Matrix, N>,
     Bordered<<L as Lagrangian<N>>::Scalar, N, M>,
 );
 
@@ -75,7 +75,7 @@ where
         } else {
             self.system.constraint_gradients(&segment.q0).1.transpose()
         };
-        let solved = kernel.matrix.factored().and_then(|factored| {
+        let solved = Pivoted::of(&kernel.matrix).and_then(|factored| {
             let bordered = Bordered::of(self.system, segment, directions, &factored)?;
             Some((factored, bordered))
         });
@@ -201,7 +201,7 @@ where
                 StepKernel { p0: with, matrix }
             }
             // Singular itself, or the complement is: what is solved with it says so.
-            None if matrix.factored().is_none() => StepKernel { p0, matrix },
+            None if Pivoted::of(&matrix).is_none() => StepKernel { p0, matrix },
             None if undefined_on::<L, N, M>(self.system, segment).is_some() => {
                 StepKernel { p0: SVector::repeat(L::Scalar::constant(f64::NAN)), matrix }
             }

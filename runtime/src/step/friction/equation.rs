@@ -5,7 +5,7 @@ use core::cell::{Cell, RefCell};
 use nalgebra::{SMatrix, SVector};
 
 use super::set::{Elements, Held};
-use crate::numbers::{Factored, NewtonMatrix, Scalar};
+use crate::numbers::{Factored, NewtonMatrix, Pivoted, Scalar};
 use crate::step::equation::{Equation, OfRule, StepEquation};
 use crate::step::{ClosedForm, Discrete, Fused, Momenta, Segment, State, StepError, StepKernel};
 use crate::system::{DryFriction, Lagrangian, Slips};
@@ -126,8 +126,7 @@ where
     at: Cell<SVector<L::Scalar, N>>,
 }
 
-type Factors<L, R, const N: usize> =
-    <<L as Fused<R, N>>::Matrix as NewtonMatrix<<L as Lagrangian<N>>::Scalar, N>>::Factored;
+type Factors<L, R, const N: usize> = Pivoted<<L as Lagrangian<N>>::Scalar, <L as Fused<R, N>>::Matrix, N>;
 
 impl<'a, L, R, const N: usize, const M: usize> WithFriction<'a, L, R, N, M>
 where
@@ -176,7 +175,7 @@ where
         for share in SHARES {
             let segment = Segment { v: segment.v * L::Scalar::constant(share), ..*segment };
             let half = segment.h * L::Scalar::constant(0.5);
-            let Some(factored) = self.free.kernel(&segment).matrix.factored() else { continue };
+            let Some(factored) = Pivoted::of(&self.free.kernel(&segment).matrix) else { continue };
             if let Err(error) =
                 Sliding::of(&at_middle(self.system, &segment), &segment.v, (half, segment.h), &factored)
             {
@@ -200,7 +199,7 @@ where
             // With some room.
             let segment = Segment { q0: self.state.q, v, h: L::Scalar::constant(part * 1.125) };
             let half = segment.h * L::Scalar::constant(0.5);
-            let factored = self.free.kernel(&segment).matrix.factored();
+            let factored = Pivoted::of(&self.free.kernel(&segment).matrix);
             let slips = at_middle(self.system, &segment);
             if factored
                 .is_some_and(|factored| Sliding::of(&slips, &segment.v, (half, segment.h), &factored).is_ok())
@@ -267,7 +266,7 @@ where
 
     fn kernel(&self, segment: &Segment<L::Scalar, N>) -> StepKernel<L::Scalar, N, L::Matrix> {
         let StepKernel { p0, matrix } = self.free.kernel(segment);
-        let factored = matrix.factored();
+        let factored = Pivoted::of(&matrix);
         let residual = factored.as_ref().and_then(|factored| self.residual(segment, factored, &p0));
         // Without friction's share there is no equation, nor a correction.
         if let Ok(mut last) = self.last.try_borrow_mut() {
@@ -297,10 +296,7 @@ where
                 _ => None,
             }
         } else {
-            self.free
-                .kernel(segment)
-                .matrix
-                .factored()
+            Pivoted::of(&self.free.kernel(segment).matrix)
                 .and_then(|factored| self.residual(segment, &factored, &p0))
         };
         // No number where friction has no solution: that is no root.
