@@ -4,6 +4,7 @@ mod allocation;
 mod certificates;
 mod condition;
 mod constraints;
+mod dashpots;
 mod degenerate;
 mod equivalence;
 mod f32;
