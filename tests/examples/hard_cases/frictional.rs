@@ -177,7 +177,7 @@ pub fn stick_slip() -> Result<Case> {
         ours: "One or two iterations a step at every ε; damping of the Newton step catches the jump when the block starts to slip. With ε → 0: \
                slip at t = μ/(ku) = 10, half the speed u after another π/3, and the lowest point −μ/k − u = −1.1. Written as ln cosh the \
                friction overflows, and written as x + ln(1 + e^{−2x}) it loses its digits at rest: both return a named `StepError`. \
-               Without ε, as μ|v|, `rule = proximal` takes it: [at random](evidence/dry-friction.md).",
+               Without ε, as μ|v|, `rule = proximal` takes it: [at random](evidence/dry-friction.md), [beside SciPy](evidence/friction-beside-scipy.md).",
         head: &["ε", "hμ/ε", "slips at", "lowest q", "Newton iterations a step", "shortened"],
         rows,
         panels: vec![Panel::new(
