@@ -1,6 +1,6 @@
 """Four parts of the study of henon_heiles.py: what a task of a Slurm array does, as array.sbatch starts it.
 
-    python array.py FOLDER MEMBERS TASK
+    python slurm_array.py FOLDER MEMBERS TASK
 """
 
 import os
