@@ -15,8 +15,8 @@
 //! v·∂R/∂v ≥ 0                                                                      dissipation
 //! ```
 //!
-//! [`modified`] has the Rayleigh system on whose motion a run lies, [`routh`] the reduction by a cyclic
-//! coordinate.
+//! [`OrderFour`] has q of order 4 with an R_d. [`modified`] has the Rayleigh system on whose motion a run
+//! lies, [`routh`] the reduction by a cyclic coordinate.
 //!
 //! On holonomic constraints [`structure`] and `rayleigh_step` judge the pair restricted to N×N, N = g⁻¹(0),
 //! which is a pair again; [`dissipation`] judges R at the points given, on constraints those of TN. The
@@ -61,6 +61,7 @@ mod comparison;
 mod conformal_step;
 mod dissipation;
 pub mod modified;
+mod order_four;
 mod potential;
 mod proportion;
 pub(super) mod quadrature;
@@ -73,6 +74,7 @@ mod structure;
 pub use comparison::{Comparison, Equivalence};
 pub use conformal_step::{ConformalStep, ConformalStepError};
 pub use dissipation::{Dissipation, dissipation, dissipation_over};
+pub use order_four::{OrderFour, OrderFourError, OrderFourState, PotentialEnergy};
 pub use potential::{Potential, Recovery};
 pub use proportion::{Proportion, ProportionError, ProportionalSplit};
 pub use quadrature::Integral;

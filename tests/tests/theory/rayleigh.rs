@@ -7,6 +7,7 @@ mod equivalence;
 mod modified_linear;
 mod modified_midpoint;
 mod one_end;
+mod order_four;
 mod potential;
 mod reciprocity;
 mod resplit;
