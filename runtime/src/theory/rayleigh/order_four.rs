@@ -110,7 +110,7 @@ pub struct OrderFourState<const N: usize> {
 }
 
 /// The hypothesis of the theorem that fails, or why a step was not taken.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum OrderFourError {
     /// h is 0 or not finite.
@@ -310,5 +310,7 @@ impl fmt::Display for OrderFourError {
         }
     }
 }
+
+debug_by_display!(OrderFourError);
 
 impl core::error::Error for OrderFourError {}
