@@ -126,17 +126,21 @@ def each_rule_has_its_energy(page, reference):
 
 
 def a_failure_is_said(page):
-    """At h = 0.1 and without friction the midpoint rule's equations soon have no solution; RK4 goes on, to another energy."""
+    """At h = 0.1 and without friction the midpoint rule's equations soon have no solution that is found; RK4 goes on."""
     choose(page, "double_pendulum")
     choose_rule(page, "midpoint")
     page.wait("Number(document.getElementById('steps').textContent) > 10", 10)
     slide(page, "speed", 100)
     slide(page, "h", 0.1)
     click(page, "restart")
-    page.wait("document.getElementById('rule-note').textContent.includes('no solution in reach: try a smaller step')", 20)
+    # Which of two failures it is hangs on the last bits of a chaotic motion.
+    page.wait(
+        "/ended at t = .*(no solution in reach|not solved within).*smaller step/.test(document.getElementById('rule-note').textContent)",
+        20,
+    )
     steps = reading(page, "steps")
     page.wait(f"Number(document.getElementById('steps').textContent) > {steps}", 10)
-    require(page.evaluate("document.getElementById('rungeKutta-note').textContent") == "", "RK4 has ended too")
+    require("ended" not in page.evaluate("document.getElementById('rungeKutta-note').textContent"), "RK4 has ended too")
     print("failure: the page says why a run has ended, and the others go on")
 
 
