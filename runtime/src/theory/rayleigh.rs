@@ -10,6 +10,8 @@
 //!   iff D1 f_d⁻ and D2 f_d⁺ are symmetric; always for n = 1
 //! p0 = −D1(L_d + R_d), p1 = D2(L_d − R_d) for some L_d, R_d, whatever made the step  RayleighStep
 //!   iff a bᵀ and bᵀd are symmetric; always for n = 1
+//! p1(q_{k−1}, q_k) = p0(q_k, q_{k+1}) is the equation of some L_d, R_d               RayleighEquation
+//!   iff K11 − K00 is symmetric at every node; always for n = 1
 //! AᵀΩA = cΩ, the step multiplies the symplectic form by a constant                  ConformalStep
 //!   iff R_d = κL_d + α(q0) + β(q1), c = (1 − κ)/(1 + κ)                            Proportion
 //! v·∂R/∂v ≥ 0                                                                      dissipation
@@ -60,6 +62,7 @@ mod asked;
 mod comparison;
 mod conformal_step;
 mod dissipation;
+mod equation;
 pub mod modified;
 mod order_four;
 mod potential;
@@ -74,6 +77,7 @@ mod structure;
 pub use comparison::{Comparison, Equivalence};
 pub use conformal_step::{ConformalStep, ConformalStepError};
 pub use dissipation::{Dissipation, dissipation, dissipation_over};
+pub use equation::{NodeSteps, RayleighEquation};
 pub use order_four::{OrderFour, OrderFourError, OrderFourState, PotentialEnergy};
 pub use potential::{Potential, Recovery};
 pub use proportion::{Proportion, ProportionError, ProportionalSplit};

@@ -4,6 +4,7 @@ mod caustics;
 mod closedness;
 mod conformal;
 mod constants;
+mod continuous_limit;
 mod corrected;
 mod example;
 mod hamilton_equations;

@@ -3,10 +3,12 @@
 mod classical_damping;
 mod conformal;
 mod dissipation;
+mod equation;
 mod equivalence;
 mod modified_linear;
 mod modified_midpoint;
 mod one_end;
+mod optimal_control;
 mod order_four;
 mod potential;
 mod reciprocity;

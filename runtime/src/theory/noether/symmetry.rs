@@ -1,5 +1,7 @@
 use core::fmt;
 
+use nalgebra::SVector;
+
 use super::{Generator, Noether, Terms, moves_an_end};
 use crate::numbers::Scalar;
 use crate::step::{Discrete, Momenta};
@@ -89,10 +91,57 @@ where
         generator: &Generator<L::Scalar, N>,
         segments: &[Pair<L::Scalar, N>],
     ) -> Result<Symmetry<N>, SampleError> {
+        self.symmetry_up_to(generator, |_| L::Scalar::constant(0.0), segments)
+    }
+
+    /// Judges one generator on `segments`, up to the difference of a function F of the configuration:
+    ///
+    /// ```text
+    /// ξ(L_d) + f_d(ξ) = F(q1) − F(q0)     keeps     J − F
+    /// ```
+    ///
+    /// In the answer F(q1) − F(q0) is taken from ξ(L_d), or from ξ(L) at the stages, and from J⁺ − J⁻; *J is
+    /// conserved* says that J − F is.
+    ///
+    /// Linear drag alone keeps p + rq, so that a sled with momentum p stops p/r further on:
+    ///
+    /// ```
+    /// use dalembert::noether::Generator;
+    /// use dalembert::{Discretise, Midpoint, rayleigh_system, samples};
+    ///
+    /// #[rayleigh_system]
+    /// fn sled(_q: [f64; 1], v: [f64; 1], m: f64, r: f64) -> (f64, f64) {
+    ///     (0.5 * m * v[0] * v[0], 0.5 * r * v[0] * v[0])
+    /// }
+    ///
+    /// let sled = Sled { m: 2.0, r: 0.3 };
+    /// let noether = sled.by(Midpoint, 0.1).noether();
+    /// let along = Generator::translation("x", [1.0]);
+    /// let segments = samples::segments([-1.0], [1.0], [0.1], 20);
+    /// assert!(!noether.symmetry(&along, &segments)?.is_conserved());
+    /// assert!(noether.symmetry_up_to(&along, |q| -sled.r * q[0], &segments)?.is_conserved());
+    /// # Ok::<(), dalembert::samples::SampleError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`symmetry`](Self::symmetry).
+    pub fn symmetry_up_to(
+        &self,
+        generator: &Generator<L::Scalar, N>,
+        function: impl Fn(&SVector<L::Scalar, N>) -> L::Scalar,
+        segments: &[Pair<L::Scalar, N>],
+    ) -> Result<Symmetry<N>, SampleError> {
         require_step_size(self.by.h)?;
         require_informative(segments, |segment| segment.moves() && moves_an_end(generator, segment))?;
         let segments = &at_several_times(&self.by, segments)[..];
-        let terms = segments.iter().enumerate().map(|(k, segment)| self.terms(k, 0, generator, segment));
+        let ends = |segment: &Pair<L::Scalar, N>| [&segment.q0, &segment.q1].map(|q| function(q).widen());
+        let terms = segments.iter().enumerate().map(|(k, segment)| {
+            let mut terms = self.terms(k, 0, generator, segment)?;
+            let [from, to] = ends(segment);
+            terms.defect.lagrangian -= to - from;
+            terms.size.lagrangian += from.abs() + to.abs();
+            Ok::<_, SampleError>(terms)
+        });
         let terms: Vec<Terms> = terms.collect::<Result<_, _>>()?;
         let sizes = |scale: fn(&Terms) -> f64| scales(&terms.iter().map(scale).collect::<Vec<_>>());
         let of_lagrangian = sizes(|terms| terms.size.lagrangian);
@@ -100,12 +149,13 @@ where
         let of_all = sizes(|terms| terms.size.total());
         let contribution =
             |value: &dyn Fn(usize) -> f64, scales: &[f64]| worst(segments, self.tolerance, scales, value);
-        let identity = |(k, Pair { q0, q1 }): (usize, &Pair<L::Scalar, N>)| {
+        let identity = |(k, segment): (usize, &Pair<L::Scalar, N>)| {
+            let (Pair { q0, q1 }, [from, to]) = (segment, ends(segment));
             let jump = at_segment(&self.by, k, |by| {
                 let Momenta { p0, p1 } = by.objects(q0, q1).momenta();
                 p1.dot(&generator.vector(q1)) - p0.dot(&generator.vector(q0))
             });
-            jump.map(|jump| jump.widen() - terms[k].defect.total())
+            jump.map(|jump| jump.widen() - (to - from) - terms[k].defect.total())
         };
         let identities: Vec<f64> = segments.iter().enumerate().map(identity).collect::<Result<_, _>>()?;
         Ok(Symmetry {

@@ -177,7 +177,7 @@ where
     /// assert!(pair.by(Midpoint, 0.5).rayleigh_step(&states)?.is_rayleigh());
     ///
     /// let six = pair.by(Composition::kahan_li_6(Midpoint), 0.5).rayleigh_step(&states)?;
-    /// assert!(!six.is_rayleigh()); // no method of order above 2 is, for every damping
+    /// assert!(!six.is_rayleigh()); // of order above 2 in (q, p)
     /// println!("{six}");
     /// # Ok::<(), dalembert::rayleigh::RayleighStepError>(())
     /// ```
