@@ -27,11 +27,11 @@ pub use crate::step::{Constraints, DiscreteInLanes, Free, Friction, Momenta, Seg
 #[doc(no_inline)]
 pub use crate::system::{
     ActingForce, Constrained, ConstrainedParameters, ConstraintsBy, CyclicCoordinate, Damping, Driven,
-    DryFriction, Engine, EventFunctions, Force, ForcedLagrangian, ForcedLagrangianInLanes, Function,
-    Gathered, GeneratedDiffers, GradientBy, Input, Lagrangian, NewtonStructure, NoDerivative, Normals,
-    OfSlice, Operation, Parameters, Place, Plain, PlainFields, Quantity, Rayleigh, Refusal, ScalarField,
-    SecondOrder, SliceMethods, Slips, SmoothRayleigh, Stages, Structure, TimeScale, VectorField, Violation,
-    Written, first_rows, last_rows, normals, violation,
+    DryFriction, DryFrictionParameters, Engine, EventFunctions, Force, ForcedLagrangian,
+    ForcedLagrangianInLanes, Function, Gathered, GeneratedDiffers, GradientBy, Input, Lagrangian,
+    NewtonStructure, NoDerivative, Normals, OfSlice, Operation, Parameters, Place, Plain, PlainFields,
+    Quantity, Rayleigh, Refusal, ScalarField, SecondOrder, SliceMethods, Slips, SlipsBy, SmoothRayleigh,
+    Stages, Structure, TimeScale, VectorField, Violation, Written, first_rows, last_rows, normals, violation,
 };
 
 /// Implements [`Described`](crate::system::Described), and makes a macro of the system's name, which hands

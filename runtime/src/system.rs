@@ -47,7 +47,7 @@ pub use continuous::{Force, Lagrangian, Rayleigh};
 pub(crate) use continuous::{derivatives_apart, is_timed};
 pub use described::Described;
 pub use driven::{Driven, Input};
-pub use dry_friction::{DryFriction, Slips, SmoothRayleigh};
+pub use dry_friction::{DryFriction, DryFrictionParameters, Slips, SlipsBy, SmoothRayleigh};
 pub use error::{Compared, Function, GeneratedDiffers};
 pub use event_functions::EventFunctions;
 pub use fields::{ScalarField, VectorField};

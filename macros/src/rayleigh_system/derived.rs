@@ -117,10 +117,11 @@ pub fn functions(system: &System<'_>, lowered: Lowered) -> Result<Derived, Refus
     functions.extend(of_constraints);
     let driven = force.filter(|_| system.input.is_some());
     functions.extend(driven.map(|components| deriving.by_input(components)).transpose()?);
-    functions.extend(deriving.all_by_parameters()?);
-    functions.extend(deriving.all_along()?);
     let kinks = deriving.find_kinks();
-    if kinks.components() > 0 && system.rules.proximal.is_some() {
+    let are_apart = kinks.components() > 0 && system.rules.proximal.is_some();
+    functions.extend(deriving.all_by_parameters(if are_apart { kinks.smooth } else { rayleigh })?);
+    functions.extend(deriving.all_along()?);
+    if are_apart {
         functions.extend(deriving.kinks(&kinks)?);
     }
     let findings = deriving.findings(&kinks);

@@ -83,6 +83,7 @@ fn name(routine: &Routine) -> (&'static str, String) {
         Of::ConstraintsByParameters => ("", "constraints_by_parameters".to_owned()),
         Of::Slips => ("DryFriction", "slips".to_owned()),
         Of::SlipCurvature => ("DryFriction", "slip_curvature".to_owned()),
+        Of::SlipsByParameters => ("", "slips_by_parameters".to_owned()),
         Of::SmoothRayleigh => ("SmoothRayleigh", "smooth_rayleigh_derivatives".to_owned()),
         Of::ForceByInput => ("", "force_by_input".to_owned()),
         Of::ByParameters(part) => ("", format!("{}_by_parameters", part.name())),

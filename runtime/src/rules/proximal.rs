@@ -5,10 +5,11 @@ use super::parts::Parts;
 use super::{DisplacementRule, Midpoint};
 use crate::numbers::Derivatives;
 use crate::step::{
-    ClosedForm, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteObjects, EnergyExchange,
-    ForceWork, Fused, LinearizedSegment, Momenta, Segment, SolvedForVelocity, State, StateBy, StepError,
+    BorderParameters, ClosedForm, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteObjects,
+    DiscreteParameters, EnergyExchange, ForceWork, Fused, LinearizedSegment, Momenta, Segment,
+    SolvedForVelocity, State, StateBy, StepError,
 };
-use crate::system::{Driven, SmoothRayleigh};
+use crate::system::{Driven, Parameters, SmoothRayleigh};
 
 /// The midpoint rule with the kinks of R implicit at both ends of the step: dry friction that holds.
 ///
@@ -69,7 +70,7 @@ use crate::system::{Driven, SmoothRayleigh};
 /// Where L does not hold the velocity of a coordinate, the other forces at the end, R_s among them, balance
 /// friction in the second line, and p1 is 0.
 ///
-/// Not self-adjoint. A, B are those of what sticks and what slides; at the limit of the two there is none
+/// Not self-adjoint. A, B and derivatives by parameters are those of what sticks and what slides; at the limit of the two there is none
 /// ([`StepError::AtLimitOfFriction`]). When each element comes to stick and begins to slip is told by
 /// [`stick_slip`](crate::Trajectory::stick_slip).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -142,5 +143,24 @@ where
 {
     fn by_input(at: &LinearizedSegment<'_, L, Proximal, N>) -> Result<StateBy<L::Scalar, N, M>, StepError> {
         at.answer(&Midpoint::force_by_input(at.on.segment(), at.on.system, L::force_by_input))
+    }
+}
+
+impl<L, const N: usize, const P: usize> DiscreteParameters<Proximal, N, P> for L
+where
+    L: Fused<Proximal, N, Border: BorderParameters<L, Proximal, N, P>> + SmoothRayleigh<N> + Parameters<N, P>,
+{
+    fn by_parameters(
+        at: &LinearizedSegment<'_, L, Proximal, N>,
+    ) -> Result<StateBy<L::Scalar, N, P>, StepError> {
+        let (system, segment) = (at.on.system, at.on.segment());
+        let mut by = Midpoint::lagrangian_by_parameters(system, segment);
+        if L::HAS_SMOOTH {
+            by = by + Midpoint::rayleigh_by_parameters(system, segment);
+        }
+        if L::HAS_FORCE {
+            by = by + Midpoint::force_by_parameters(system, segment);
+        }
+        at.answer_parameters(&by)
     }
 }

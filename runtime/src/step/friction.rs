@@ -19,6 +19,7 @@
 mod element;
 mod end;
 mod equation;
+mod line;
 mod linearized;
 mod set;
 mod slipping;
@@ -28,10 +29,10 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{Factored, Scalar};
 use crate::step::{
-    Border, BoundedStep, ClosedForm, Discrete, LegendreDerivatives, Momenta, MomentaBy, PhaseMatrix, Segment,
-    State, StateBy, Step, StepError, step_by, step_within_by,
+    Border, BorderParameters, BoundedStep, ClosedForm, Discrete, LegendreDerivatives, Momenta, MomentaBy,
+    PhaseMatrix, Segment, State, StateBy, Step, StepError, step_by, step_within_by,
 };
-use crate::system::DryFriction;
+use crate::system::{DryFriction, DryFrictionParameters, Parameters};
 use end::{End, sticking, velocity};
 use equation::WithFriction;
 use linearized::LinearizedFriction;
@@ -168,5 +169,21 @@ where
         momenta: &MomentaBy<L::Scalar, N, P>,
     ) -> Result<StateBy<L::Scalar, N, P>, StepError> {
         at.answer(k, momenta)
+    }
+}
+
+impl<L, R, const N: usize, const M: usize, const P: usize> BorderParameters<L, R, N, P> for Friction<M>
+where
+    L: ClosedForm<R, N> + Discrete<R, N> + DryFrictionParameters<N, M, P> + Parameters<N, P>,
+{
+    fn answer_parameters(
+        system: &L,
+        segment: &Segment<L::Scalar, N>,
+        k: &LegendreDerivatives<L::Scalar, N>,
+        _: &SMatrix<L::Scalar, N, N>,
+        at: &Self::Linearized,
+        momenta: &MomentaBy<L::Scalar, N, P>,
+    ) -> Result<StateBy<L::Scalar, N, P>, StepError> {
+        at.answer_parameters(system, segment, k, momenta)
     }
 }

@@ -122,6 +122,27 @@ impl<const N: usize> Massless<N> {
         balance
     }
 
+    /// The derivatives of [`balance`](Self::balance) by parameters at fixed (q, v), from those of ∂L/∂v and of
+    /// ∂L/∂q + f_L.
+    pub(crate) fn balance_by<S: Scalar, const P: usize>(
+        &self,
+        momentum: &SMatrix<S, N, P>,
+        forces: impl FnOnce() -> SMatrix<S, N, P>,
+        scale: S,
+    ) -> SMatrix<S, N, P> {
+        let mut balance = *momentum;
+        if self.are_any() {
+            for (column, forces) in balance.data.0.iter_mut().zip(&forces().data.0) {
+                for i in 0..N {
+                    if self.0[i] {
+                        column[i] = -forces[i] * scale;
+                    }
+                }
+            }
+        }
+        balance
+    }
+
     /// [`balance`](Self::balance) at (q, v), where the system is told which force acts.
     #[cold]
     #[inline(never)]

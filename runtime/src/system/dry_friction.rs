@@ -70,3 +70,23 @@ pub struct Slips<S, const N: usize, const M: usize> {
     /// F, for each component that of its element.
     pub limits: SVector<S, M>,
 }
+
+/// Slips and limits by the P parameters that [`Parameters`](crate::system::Parameters) lists.
+pub trait DryFrictionParameters<const N: usize, const M: usize, const P: usize>: DryFriction<N, M> {
+    /// ∂u/∂θ, and ∂/∂θ of Σₖ Fₖ sₖ·∂uₖ/∂v at fixed `forces` s, at (q, v).
+    fn slips_by_parameters(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+        forces: &SVector<Self::Scalar, M>,
+    ) -> SlipsBy<Self::Scalar, N, M, P>;
+}
+
+/// The derivatives of dry friction by P parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlipsBy<S, const N: usize, const M: usize, const P: usize> {
+    /// ∂u/∂θ, shape M×P.
+    pub values: SMatrix<S, M, P>,
+    /// ∂/∂θ of the friction force Σₖ Fₖ sₖ·∂uₖ/∂v, shape N×P.
+    pub force: SMatrix<S, N, P>,
+}

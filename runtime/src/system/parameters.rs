@@ -42,7 +42,8 @@ pub trait Parameters<const N: usize, const P: usize>: Lagrangian<N> {
         v: &SVector<Self::Scalar, N>,
     ) -> GradientBy<Self::Scalar, N, P>;
 
-    /// ∂²R/∂q∂θ and ∂²R/∂v∂θ at (q, v); 0 where there is no R.
+    /// ∂²R/∂q∂θ and ∂²R/∂v∂θ at (q, v), of R without its kinks where the rule takes these apart; 0 where
+    /// there is no R.
     #[inline]
     fn rayleigh_by_parameters(
         &self,

@@ -110,13 +110,7 @@ impl Deriving<'_> {
     fn constraints_by_parameters(&mut self, rows: &Rows, reaction: &[Node]) -> Made<Routine> {
         let mut outputs = Vec::new();
         for components in [&rows.values[..], &rows.rates, reaction] {
-            let by_variables = self.rows(components);
-            for expression in &self.system.parameters {
-                let parameter = self.graph.listed(expression);
-                for row in &by_variables {
-                    outputs.push(self.or_zero(row.get(&parameter).copied()));
-                }
-            }
+            outputs.extend(self.columns_by_parameters(components));
         }
         self.made(Of::ConstraintsByParameters, self.system.home(), &outputs)
     }

@@ -155,6 +155,9 @@ impl Deriving<'_> {
         if !kinks.is_uniform {
             functions.push(self.slip_curvature(kinks)?);
         }
+        if !self.system.parameters.is_empty() {
+            functions.push(self.slips_by_parameters(kinks)?);
+        }
         if let Some(root) = kinks.smooth {
             functions.push(self.derivatives(Of::SmoothRayleigh, self.system.home(), root, "r")?);
         }
@@ -162,6 +165,27 @@ impl Deriving<'_> {
     }
 
     fn slip_curvature(&mut self, kinks: &Kinks) -> Made<Routine> {
+        let force = self.friction(kinks);
+        let by_q = self.rows(&force);
+        let outputs = self.matrix(|deriving, i, j| {
+            let variable = deriving.variable(j, false);
+            by_q[i].get(&variable).copied()
+        });
+        self.made(Of::SlipCurvature, self.system.home(), &outputs)
+    }
+
+    /// ∂u/∂θ, and ∂/∂θ of the friction at given s.
+    fn slips_by_parameters(&mut self, kinks: &Kinks) -> Made<Routine> {
+        let slips: Vec<Node> = kinks.elements.iter().flat_map(|element| element.slip.clone()).collect();
+        let mut outputs = Vec::new();
+        for components in [slips, self.friction(kinks)] {
+            outputs.extend(self.columns_by_parameters(&components));
+        }
+        self.made(Of::SlipsByParameters, self.system.home(), &outputs)
+    }
+
+    /// Σ F s·∂u/∂v.
+    fn friction(&mut self, kinks: &Kinks) -> Vec<Node> {
         let components: Vec<(Node, Node)> = kinks
             .elements
             .iter()
@@ -180,13 +204,7 @@ impl Deriving<'_> {
                 }
             }
         }
-        let sums: Vec<Node> = sums.into_iter().map(|sum| self.or_zero(sum)).collect();
-        let by_q = self.rows(&sums);
-        let outputs = self.matrix(|deriving, i, j| {
-            let variable = deriving.variable(j, false);
-            by_q[i].get(&variable).copied()
-        });
-        self.made(Of::SlipCurvature, self.system.home(), &outputs)
+        sums.into_iter().map(|sum| self.or_zero(sum)).collect()
     }
 
     fn slips(&mut self, kinks: &Kinks) -> Made<Routine> {

@@ -60,6 +60,8 @@ pub enum Of {
     Slips,
     /// ∂/∂q of Σ F s·∂u/∂v.
     SlipCurvature,
+    /// ∂u/∂θ, and ∂/∂θ of Σ F s·∂u/∂v.
+    SlipsByParameters,
     /// R without its kinks, as [`Derivatives`](Self::Derivatives).
     SmoothRayleigh,
     /// ∂f/∂u.
@@ -111,7 +113,9 @@ impl Of {
             Self::ConstraintCurvature | Self::ConstraintsByParameters => {
                 &["q", "v", "h", "half", "q0", "q1", "minus", "plus", "lambda"]
             }
-            Self::SlipCurvature => &["q", "v", "h", "half", "q0", "q1", "minus", "plus", "forces"],
+            Self::SlipCurvature | Self::SlipsByParameters => {
+                &["q", "v", "h", "half", "q0", "q1", "minus", "plus", "forces"]
+            }
             Self::Along(_) => &["q", "v", "h", "half", "q0", "q1", "minus", "plus", "a", "b"],
             _ => &["q", "v", "h", "half", "q0", "q1", "minus", "plus"],
         }

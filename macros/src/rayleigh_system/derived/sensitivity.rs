@@ -5,13 +5,13 @@ use syn::Expr;
 use super::*;
 
 impl Deriving<'_> {
-    /// Derivatives by the parameters, if there are any.
-    pub(super) fn all_by_parameters(&mut self) -> Made<Vec<Routine>> {
+    /// Derivatives by the parameters, if there are any; of this part of R.
+    pub(super) fn all_by_parameters(&mut self, rayleigh: Option<Node>) -> Made<Vec<Routine>> {
         if self.system.parameters.is_empty() {
             return Ok(Vec::new());
         }
         let mut functions = vec![self.by_parameters(Part::Lagrangian, self.lagrangian)?];
-        functions.extend(self.rayleigh.map(|root| self.by_parameters(Part::Rayleigh, root)).transpose()?);
+        functions.extend(rayleigh.map(|root| self.by_parameters(Part::Rayleigh, root)).transpose()?);
         functions.extend(self.force.map(|components| self.force_by_parameters(components)).transpose()?);
         Ok(functions)
     }
@@ -35,15 +35,21 @@ impl Deriving<'_> {
     }
 
     fn force_by_parameters(&mut self, components: &[Node]) -> Made<Routine> {
+        let outputs = self.columns_by_parameters(components);
+        self.made(Of::ByParameters(Part::Force), self.system.home(), &outputs)
+    }
+
+    /// The derivatives of these components by the parameters, column by column.
+    pub(super) fn columns_by_parameters(&mut self, components: &[Node]) -> Vec<Node> {
         let rows = self.rows(components);
-        let mut outputs = Vec::new();
+        let mut entries = Vec::new();
         for expression in &self.system.parameters {
             let parameter = self.graph.listed(expression);
             for row in &rows {
-                outputs.push(self.or_zero(row.get(&parameter).copied()));
+                entries.push(self.or_zero(row.get(&parameter).copied()));
             }
         }
-        self.made(Of::ByParameters(Part::Force), self.system.home(), &outputs)
+        entries
     }
 
     /// ∂²f/∂q∂θ or ∂²f/∂v∂θ, column by column.

@@ -83,6 +83,7 @@ fn functions(system: &System<'_>, derived: Derived, is_portable: bool) -> Engine
             is_uniform,
             is_proportional,
             functions,
+            by_parameters: text.functions_of(|of| of == Of::SlipsByParameters),
             smooth: text.functions_of(|of| of == Of::SmoothRayleigh),
         }
     });

@@ -15,13 +15,16 @@ pub struct Friction {
     /// Whether R is proportional to each length.
     pub is_proportional: bool,
     pub functions: TokenStream,
+    /// Derivatives by parameters, if they are asked for.
+    pub by_parameters: Option<TokenStream>,
     /// R without its kinks, if anything is left of it.
     pub smooth: Option<TokenStream>,
 }
 
-/// `impl SmoothRayleigh<2> for Ring` and `impl DryFriction<2, 1> for Ring`.
+/// `impl SmoothRayleigh<2> for Ring` and `impl DryFriction<2, 1> for Ring`, and `impl
+/// DryFrictionParameters<2, 1, 3> for Ring` where parameters are listed.
 pub fn dry_friction(system: &System<'_>, friction: &Friction) -> TokenStream {
-    let Friction { sizes, is_uniform, is_proportional, functions, smooth } = friction;
+    let Friction { sizes, is_uniform, is_proportional, functions, by_parameters, smooth } = friction;
     let (n, m) = (system.degrees.times(1), Literal::usize_unsuffixed(sizes.iter().sum()));
     let sizes = sizes.iter().map(|size| Literal::usize_unsuffixed(*size));
     let subject = subject(system, system.home());
@@ -30,6 +33,15 @@ pub fn dry_friction(system: &System<'_>, friction: &Friction) -> TokenStream {
             const HAS_SMOOTH: bool = true;
 
             #function
+        }
+    });
+    let by_parameters = by_parameters.as_ref().map(|function| {
+        let p = system.parameter_count();
+        quote! {
+            #[automatically_derived]
+            impl ::dalembert::generated::DryFrictionParameters<#n, #m, #p> for #subject {
+                #function
+            }
         }
     });
     quote! {
@@ -46,5 +58,7 @@ pub fn dry_friction(system: &System<'_>, friction: &Friction) -> TokenStream {
 
             #functions
         }
+
+        #by_parameters
     }
 }

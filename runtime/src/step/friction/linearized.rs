@@ -17,13 +17,13 @@ use nalgebra::{SMatrix, SVector};
 use super::element::elements;
 use super::end::{balance, velocity};
 use super::equation::{at_middle, direction_of};
-use crate::numbers::{Scalar, linear::by_columns};
-use crate::step::constraints::{complement::Complement, independent::Independent};
+use super::line::{Line, leave};
+use crate::numbers::Scalar;
 use crate::step::massless::Massless;
 use crate::step::{
-    ClosedForm, Discrete, LegendreDerivatives, MomentaBy, PhaseMatrix, Segment, StateBy, StepError, invert,
+    ClosedForm, Discrete, LegendreDerivatives, MomentaBy, PhaseMatrix, Segment, StateBy, StepError,
 };
-use crate::system::{DryFriction, Quantity};
+use crate::system::{DryFriction, DryFrictionParameters, Parameters, Quantity};
 
 /// Roundings below which a slip is 0, beside those of its terms.
 const ROUNDINGS: f64 = 64.0;
@@ -31,60 +31,17 @@ const ROUNDINGS: f64 = 64.0;
 /// How near to its limit a friction force is at its edge.
 const EDGE: f64 = 1e-9;
 
-/// A line of the step with what sticks in it: an equation X dx + D ds = …, rows dx = ….
-struct Line<S: Scalar, const N: usize, const M: usize> {
-    inverse: SMatrix<S, N, N>,
-    rows: SMatrix<S, M, N>,
-    answers: SMatrix<S, N, M>,
-    complement: Complement<S, M>,
-}
-
-impl<S: Scalar, const N: usize, const M: usize> Line<S, N, M> {
-    fn of(
-        matrix: &SMatrix<S, N, N>,
-        directions: &SMatrix<S, N, M>,
-        rows: &SMatrix<S, M, N>,
-        sticks: &[bool; M],
-    ) -> Result<Self, StepError> {
-        let inverse = invert(matrix)?;
-        let (mut directions, mut rows) = (*directions, *rows);
-        let mut beside = SMatrix::<S, M, M>::zeros();
-        let columns = directions.data.0.iter_mut().zip(&mut beside.data.0).zip(sticks).enumerate();
-        for (k, ((direction, beside), _)) in columns.filter(|(_, (_, stick))| !**stick) {
-            direction.fill(S::zero());
-            beside.iter_mut().skip(k).take(1).for_each(|entry| *entry = S::one());
-        }
-        leave(&mut rows, sticks);
-        let answers = inverse * directions;
-        let complement =
-            Complement::of(&(rows * answers + beside), || Independent::of(&rows, &directions, &answers))
-                .ok_or(StepError::SingularNewtonMatrix { iteration: 0, column: 0 })?;
-        Ok(Self { inverse, rows, answers, complement })
-    }
-
-    /// x of X x + D s = `right`, rows x = `slip`.
-    fn solve<const K: usize>(&self, right: &SMatrix<S, N, K>, slip: &SMatrix<S, M, K>) -> SMatrix<S, N, K> {
-        let free = self.inverse * right;
-        let left = self.rows * free - slip;
-        free - self.answers * by_columns(&left, |left| self.complement.solve(left))
-    }
-}
-
-/// Leaves the rows of what sticks.
-fn leave<S: Scalar, const N: usize, const M: usize>(rows: &mut SMatrix<S, M, N>, sticks: &[bool; M]) {
-    for column in &mut rows.data.0 {
-        let slides = column.iter_mut().zip(sticks).filter(|(_, stick)| !**stick);
-        slides.for_each(|(entry, _)| *entry = S::zero());
-    }
-}
-
 /// The share of friction in the equations on the segment of a step.
 pub struct LinearizedFriction<S: Scalar, const N: usize, const M: usize> {
     first: Line<S, N, M>,
+    of_first: State<S, N, M>,
     /// d(D s) and du of what sticks by q0, without what q1 moves.
     impulse_by_q0: SMatrix<S, N, N>,
     slip_by_q0: SMatrix<S, M, N>,
     second: Line<S, N, M>,
+    of_second: State<S, N, M>,
+    /// v1.
+    v: SVector<S, N>,
     /// ½ d(D s1) and ½ du of what sticks in the second line, by q.
     half_impulse: SMatrix<S, N, N>,
     half_slip: SMatrix<S, M, N>,
@@ -183,7 +140,7 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
         let first =
             if L::IS_UNIFORM { first } else { Line::of(&(matrix + bent), &directions, &by_q1, &at.sticks)? };
         let impulse_by_q0 = at.turning * by_q0 + bent;
-        let sticks = at.sticks;
+        let of_first = at;
 
         // The velocity at the end.
         let w = k.momenta.p1;
@@ -207,12 +164,15 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
         let half_impulse = at.turning * (at_end.by_configuration * half) + curvature(&at.forces);
         let (mut half_slip, mut slip_by_q0) = (at_end.by_configuration * half, by_q0);
         leave(&mut half_slip, &at.sticks);
-        leave(&mut slip_by_q0, &sticks);
+        leave(&mut slip_by_q0, &of_first.sticks);
         let linearized = Self {
             first,
+            of_first,
             impulse_by_q0,
             slip_by_q0,
             second,
+            of_second: at,
+            v: end.v,
             half_impulse,
             half_slip,
             mass: l.d22,
@@ -224,20 +184,20 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
         Ok((q_by_p, linearized))
     }
 
-    /// The derivative of the end, from those of the start and of what moves momenta at fixed ends.
+    /// The derivative of the end, from those of the start and of what moves the equations at fixed ends.
     fn carried<const K: usize>(
         &self,
         k: &LegendreDerivatives<S, N>,
         start: &StateBy<S, N, K>,
-        moved: &MomentaBy<S, N, K>,
+        moved: &Moved<S, N, M, K>,
     ) -> Result<StateBy<S, N, K>, StepError> {
         let right = start.p - (k.p0_by_q0 + self.impulse_by_q0) * start.q - moved.p0;
-        let q = self.first.solve(&right, &-(self.slip_by_q0 * start.q));
+        let q = self.first.solve(&right, &-(self.slip_by_q0 * start.q + moved.slip));
         let both = start.q + q;
-        let w = self.massless.without(&(k.p1_by_q0 * start.q + k.p1_by_q1 * q)) + moved.p1;
+        let w = self.massless.without(&(k.p1_by_q0 * start.q + k.p1_by_q1 * q + moved.p1)) - moved.balance;
         let right = w - self.end_by_q * q - self.half_impulse * both;
-        let v = self.second.solve(&right, &-(self.half_slip * both));
-        let p = self.mass * v + self.momentum_by_q * q;
+        let v = self.second.solve(&right, &-(self.half_slip * both + moved.end_slip));
+        let p = self.mass * v + self.momentum_by_q * q + moved.momentum;
         StepError::require_finite(&q, Quantity::Derivatives)?;
         StepError::require_finite(&p, Quantity::Derivatives)?;
         Ok(StateBy { q, p })
@@ -245,17 +205,88 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
 
     pub(super) fn by_state(&self, k: &LegendreDerivatives<S, N>) -> Result<PhaseMatrix<S, N>, StepError> {
         let (one, zero) = (SMatrix::identity(), SMatrix::zeros());
-        let still = MomentaBy { p0: zero, p1: zero };
-        let by_q = self.carried(k, &StateBy { q: one, p: zero }, &still)?;
-        let by_p = self.carried(k, &StateBy { q: zero, p: one }, &still)?;
+        let by_q = self.carried(k, &StateBy { q: one, p: zero }, &Moved::none())?;
+        let by_p = self.carried(k, &StateBy { q: zero, p: one }, &Moved::none())?;
         Ok(PhaseMatrix { q_by_q: by_q.q, p_by_q: by_q.p, q_by_p: by_p.q, p_by_p: by_p.p })
     }
 
     pub(super) fn answer<const P: usize>(
         &self,
         k: &LegendreDerivatives<S, N>,
-        moved: &MomentaBy<S, N, P>,
+        momenta: &MomentaBy<S, N, P>,
     ) -> Result<StateBy<S, N, P>, StepError> {
-        self.carried(k, &StateBy { q: nalgebra::zero(), p: nalgebra::zero() }, moved)
+        let moved = Moved { p0: momenta.p0, p1: momenta.p1, ..Moved::none() };
+        self.carried(k, &StateBy { q: nalgebra::zero(), p: nalgebra::zero() }, &moved)
+    }
+
+    /// The derivatives of (q1, p1) by the parameters, which move slips and limits besides.
+    pub(super) fn answer_parameters<L, const P: usize>(
+        &self,
+        system: &L,
+        segment: &Segment<S, N>,
+        k: &LegendreDerivatives<S, N>,
+        momenta: &MomentaBy<S, N, P>,
+    ) -> Result<StateBy<S, N, P>, StepError>
+    where
+        L: DryFrictionParameters<N, M, P, Scalar = S> + Parameters<N, P>,
+    {
+        let half = segment.h * S::constant(0.5);
+        let (middle, q1) = (segment.q0 + segment.v * half, segment.end());
+        let by = |v: &SVector<S, N>, at: &State<S, N, M>| {
+            let mut by = system.later(half, |system| system.slips_by_parameters(&middle, v, &at.forces));
+            let impulse = by.force * half + at.turning * by.values;
+            leave(&mut by.values, &at.sticks);
+            (impulse, by.values)
+        };
+        let (impulse, slip) = by(&segment.v, &self.of_first);
+        let (end_impulse, end_slip) = by(&self.v, &self.of_second);
+        let (momentum, balance) = system.later(segment.h, |system| {
+            let l = system.lagrangian_by_parameters(&q1, &self.v);
+            let forces = || {
+                let smooth = if L::HAS_SMOOTH {
+                    -system.rayleigh_by_parameters(&q1, &self.v).d2
+                } else {
+                    nalgebra::zero()
+                };
+                l.d1 + smooth + system.force_by_parameters(&q1, &self.v)
+            };
+            (l.d2, self.massless.balance_by(&l.d2, forces, half))
+        });
+        let moved = Moved {
+            p0: momenta.p0 + impulse,
+            slip,
+            p1: momenta.p1,
+            balance: balance + end_impulse,
+            end_slip,
+            momentum,
+        };
+        self.carried(k, &StateBy { q: nalgebra::zero(), p: nalgebra::zero() }, &moved)
+    }
+}
+
+/// The derivatives of the equations by what moves them at fixed ends.
+struct Moved<S, const N: usize, const M: usize, const K: usize> {
+    /// p0 of the first line, and the slips of what sticks in it.
+    p0: SMatrix<S, N, K>,
+    slip: SMatrix<S, M, K>,
+    /// w, the rest of the second line at fixed v1, and the slips of what sticks in it.
+    p1: SMatrix<S, N, K>,
+    balance: SMatrix<S, N, K>,
+    end_slip: SMatrix<S, M, K>,
+    /// ∂L/∂v at fixed (q1, v1).
+    momentum: SMatrix<S, N, K>,
+}
+
+impl<S: Scalar, const N: usize, const M: usize, const K: usize> Moved<S, N, M, K> {
+    fn none() -> Self {
+        let (of_momenta, of_slips) = (SMatrix::zeros(), SMatrix::zeros());
+        Self {
+            p0: of_momenta,
+            slip: of_slips,
+            p1: of_momenta,
+            balance: of_momenta,
+            end_slip: of_slips,
+            momentum: of_momenta,
+        }
     }
 }

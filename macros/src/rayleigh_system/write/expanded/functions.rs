@@ -121,6 +121,15 @@ impl Text<'_> {
                 let ty = quote!(SMatrix<#scalar, #n, #n>);
                 (None, "slip_curvature".to_owned(), ty, matrix(outputs, self.derived.n))
             }
+            Of::SlipsByParameters => {
+                let count = self.derived.kinks.components();
+                let (values, force) = outputs.split_at(count * self.system.parameters.len());
+                let (values, force) = (matrix(values, count), matrix(force, self.derived.n));
+                let count = Literal::usize_unsuffixed(count);
+                let ty = quote!(::dalembert::generated::SlipsBy<#scalar, #n, #count, #p>);
+                let result = quote!(::dalembert::generated::SlipsBy { values: #values, force: #force });
+                (None, "slips_by_parameters".to_owned(), ty, result)
+            }
             Of::ForceByInput => {
                 let ty = quote!(SMatrix<#scalar, #n, #m>);
                 (inline, "force_by_input".to_owned(), ty, matrix(outputs, self.derived.n))
@@ -175,7 +184,7 @@ impl Text<'_> {
             Of::ConstraintCurvature | Of::ConstraintsByParameters => {
                 (&["lambda"], quote!(&SVector<#scalar, #constraints>))
             }
-            Of::SlipCurvature => {
+            Of::SlipCurvature | Of::SlipsByParameters => {
                 let count = Literal::usize_unsuffixed(self.derived.kinks.components());
                 (&["forces"], quote!(&SVector<#scalar, #count>))
             }
