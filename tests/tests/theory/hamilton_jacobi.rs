@@ -10,3 +10,4 @@ mod hamilton_equations;
 mod printed_family;
 mod printed_trajectory;
 mod sections;
+mod stationary;
