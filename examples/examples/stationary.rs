@@ -30,8 +30,11 @@ fn pendulum(q: [f64; 1], v: [f64; 1], a: f64) -> (f64, f64) {
 
 type Steps<'a> = Discretised<'a, Pendulum, Trapezoidal, 1>;
 
+/// A name and an S_0.
+type Start = (&'static str, fn(f64) -> Jet);
+
 /// S_0 = 0, and one without the pendulum's symmetry.
-const STARTS: [(&str, fn(f64) -> Jet); 2] = [
+const STARTS: [Start; 2] = [
     ("S₀ = 0", |_| Jet { value: 0.0, slope: 0.0 }),
     ("S₀ = 9 + 2 sin q", |q| Jet { value: 9.0 + 2.0 * q.sin(), slope: 2.0 * q.cos() }),
 ];
