@@ -1,4 +1,4 @@
-//! An oscillator that is weakly excited where |q| < 1 and damped beyond: its limit cycle, whatever the method.
+//! The limit cycle of an oscillator that is weakly excited where |q| < 1 and damped beyond, by any method.
 
 use dalembert::{Discrete, Discretise, State, StepError, rayleigh_system};
 use nalgebra::vector;
@@ -17,8 +17,8 @@ impl LimitCycle {
         0.5 * p * p + 0.5 * q * q + 0.25 * q.powi(4)
     }
 
-    /// The cycle's energy as ε → 0, where ∮ (1 − q²) q̇ dq = 0, by bisection for its amplitude A: on q = A sin θ
-    /// q̇ dq is A² cos²θ √(1 + (A² + q²)/2) dθ.
+    /// The cycle's energy as ε → 0, where ∮ (1 − q²) q̇ dq = 0, by bisection for its amplitude A: with
+    /// q = A sin θ, q̇ dq is A² cos²θ √(1 + (A² + q²)/2) dθ.
     #[must_use]
     pub fn energy_without_friction() -> f64 {
         let power = |amplitude: f64| -> f64 {
@@ -81,8 +81,8 @@ pub fn bisected(of: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
     0.5 * (low + high)
 }
 
-/// The mean of values along a quasi-periodic motion, with the weights exp(−1/t(1 − t)): its error falls faster
-/// than any power of their number.
+/// The mean of values along a quasi-periodic motion, with the weights exp(−1/t(1 − t)): its error falls
+/// faster than any power of their number.
 #[must_use]
 pub fn weighted_mean(values: &[f64]) -> f64 {
     let weight = |i: usize| {

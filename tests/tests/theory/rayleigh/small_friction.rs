@@ -1,8 +1,8 @@
 //! Small friction: (L_d, ε R_d) for ε → 0.
 //!
 //! At ε = 0 the step is symplectic, and keeps a modified energy Ẽ but for what is exponentially small in 1/h.
-//! Friction is a kick of ε f_d⁻ at the start of a step and of ε f_d⁺ at its end, a kick δp changes Ẽ by q̇ δp,
-//! q̇ along the motion of Ẽ through the q_k, so that Ẽ goes at the mean rate of
+//! Friction is a kick of ε f_d⁻ at the start of a step and of ε f_d⁺ at its end. A kick δp changes Ẽ by
+//! q̇ δp, q̇ along the motion of Ẽ through the q_k, so that Ẽ goes at the mean rate of
 //!
 //! ```text
 //! ε f_d⁻(q_k, q_{k+1})·q̇_k + ε f_d⁺(q_k, q_{k+1})·q̇_{k+1}     over the steps without friction,
@@ -95,7 +95,7 @@ fn the_cycle_has_a_limit_where_the_discrete_melnikov_function_changes_sign() {
 fn the_cycle_of_runge_kutta_goes_with_the_friction() {
     let exact = LimitCycle::energy_without_friction();
     let off = [0.1, 0.01, 0.001].map(|epsilon| exact - of_runge_kutta(epsilon, 0.2));
-    // At ε = 0.1 its order shows, and it is nearer than the midpoint rule; at 0.001 half of the energy is gone.
+    // At ε = 0.1 its order shows: it is nearer than the midpoint rule. At 0.001 half of the energy is gone.
     assert!(off[0] < 0.1 && of_midpoint(0.1, 0.2) - exact > 0.7, "{off:?}");
     assert!(off[1] > 0.6 && off[2] > 2.5, "{off:?}");
     // Its own drift does it: without friction it takes energy, and the midpoint rule takes none.

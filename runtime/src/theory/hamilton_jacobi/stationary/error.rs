@@ -55,7 +55,7 @@ pub enum StationaryError {
     NotConverged {
         /// How often T was applied.
         iterations: usize,
-        /// What |S_k − S*| still may be.
+        /// Bound on |S_k − S*|.
         error: f64,
     },
 }

@@ -14,8 +14,8 @@ pub struct StationarySolution {
     pub kinks: Vec<f64>,
     /// How often T was applied.
     pub iterations: usize,
-    /// sup|S_{k+1} − S_k| / sup|S_k − S_{k−1}|, the last that rounding leaves its digits: c. NaN where S_0 was
-    /// as near as that.
+    /// sup|S_{k+1} − S_k| / sup|S_k − S_{k−1}|, the last that rounding leaves its digits: c. NaN where S_0
+    /// was as near as that.
     pub ratio: f64,
     /// Distance of S* from that of this grid, at most, but for rounding. That of the grid itself is not in
     /// it: compare with a finer one.
