@@ -56,6 +56,9 @@
 //! finds the motion from its derivatives by λ. For n = 1 (i) is empty: (ii) and (iii), still equivalent, give
 //! the rest.
 //!
+//! **Stationary.** For an angle and 0 < c < 1 one S* stays as it is, S*(q1) = min [c S*(q0) + G(q0, q1)]:
+//! [`StationaryEquation`].
+//!
 //! Of a system at a time t0, a view, step k and its segment (q_k, q_{k+1}) are those of t0 + k h, in every
 //! check of a sequence.
 
@@ -74,6 +77,7 @@ mod printed_report;
 mod residual;
 mod section;
 mod solution;
+mod stationary;
 mod trajectory;
 mod unforced;
 mod virtual_work;
@@ -97,6 +101,7 @@ pub use printed_report::PrintedReport;
 pub use residual::{Outcome, Residual};
 pub use section::{ConfigurationMap, Section};
 pub use solution::SolutionReport;
+pub use stationary::{Jet, PeriodicFunction, StationaryEquation, StationaryError, StationarySolution};
 pub use trajectory::TrajectoryReport;
 pub use unforced::RightEquationReport;
 pub use virtual_work::{CarriedGeneratingFunction, VirtualWork};

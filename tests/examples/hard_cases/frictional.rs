@@ -1,5 +1,6 @@
 //! Cases with friction.
 
+use std::convert::Infallible;
 use std::f64::consts::TAU;
 
 use anyhow::Result;
@@ -7,8 +8,9 @@ use dalembert::nalgebra::vector;
 use dalembert::{
     Discrete, Discretise, Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, State, Trapezoidal,
 };
-use dalembert_examples::picture::{Curve, Dash, Mark, Panel, colour, linear};
+use dalembert_examples::picture::{Curve, Dash, Mark, Panel, colour, linear, logarithmic};
 use dalembert_tests::hard::{Block, CubicDrag, DampedMass, Effort, Kepler, Progress, drive, drive_composed};
+use dalembert_tests::limit_cycle::LimitCycle;
 
 use crate::conservative::{ORDER_6, SPLITTING_6, outcome};
 use crate::page::Case;
@@ -241,5 +243,43 @@ pub fn fold() -> Result<Case> {
             curves,
         )],
         test: "damping.rs",
+    })
+}
+
+/// The mean energy of a limit cycle under a force that goes to 0.
+pub fn limit_cycle() -> Result<Case> {
+    let h = 0.2;
+    let mut rows = Vec::new();
+    let [mut by_midpoint, mut by_runge_kutta] = [const { Vec::new() }; 2];
+    for epsilon in [0.1, 0.03, 0.01, 0.003, 0.001] {
+        let system = LimitCycle { epsilon };
+        let own = system.mean_energy(h, |state| system.step(Midpoint, h, state))?;
+        let other = system.mean_energy(h, |state| Ok::<_, Infallible>(system.runge_kutta(h, state)))?;
+        rows.push(vec![format!("{epsilon}"), format!("{own:.3}"), format!("{other:.3}")]);
+        by_midpoint.push((epsilon, own));
+        by_runge_kutta.push((epsilon, other));
+    }
+    let exact = LimitCycle::energy_without_friction();
+    let of_motion = vec![(0.001, exact), (0.1, exact)];
+    let curves = vec![
+        Curve::line("motion, ε → 0", colour::REFERENCE, 2, of_motion).dashed(Dash::Dashed),
+        Curve::line("midpoint", colour::VARIATIONAL, 3, by_midpoint).marked(Mark::Square, 1),
+        Curve::line("Runge–Kutta 4", colour::RUNGE_KUTTA, 3, by_runge_kutta).marked(Mark::Disc, 1),
+    ];
+    Ok(Case {
+        title: "A limit cycle under a small force",
+        breaks: "q̈ + q + q³ = ε(1 − q²)q̇ has a limit cycle of energy 5.378 + O(ε). A method that is not symplectic at ε = 0 has a drift of \
+                 its own, which the force has to make up for: the smaller ε, the further off the cycle.",
+        ours: "At ε = 0 a step keeps a modified energy, and the cycle has a limit that is off by h² alone. (At ε = 0.1 Runge–Kutta 4 is the nearer.) \
+               The limit at h = 0.2 is 6.126, where the discrete Melnikov function, made of steps with ε = 0, changes sign.",
+        head: &["ε", "mean energy by midpoint, h = 0.2", "Runge–Kutta 4, h = 0.2"],
+        rows,
+        panels: vec![Panel::new(
+            "h = 0.2: Runge–Kutta 4 loses the cycle as ε → 0",
+            logarithmic("size of the force ε (dimensionless)"),
+            linear("mean energy of the cycle (dimensionless)"),
+            curves,
+        )],
+        test: "theory/rayleigh/small_friction.rs",
     })
 }

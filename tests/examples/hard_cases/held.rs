@@ -31,6 +31,7 @@ fn quick_cases_find_what_the_page_says() {
         ("overdamped", frictional::overdamped().unwrap()),
         ("stick-slip", frictional::stick_slip().unwrap()),
         ("fold", frictional::fold().unwrap()),
+        ("limit-cycle", frictional::limit_cycle().unwrap()),
     ];
     for (name, case) in quick {
         let text = case.text(name);

@@ -23,7 +23,7 @@ use page::Case;
 /// Name on the command line, and what makes the case.
 type Entry = (&'static str, fn() -> Result<Case>);
 
-const CASES: [Entry; 14] = [
+const CASES: [Entry; 15] = [
     ("kepler", conservative::kepler),
     ("kepler-drag", frictional::kepler_drag),
     ("kepler-scaled", scaled_time::kepler),
@@ -36,6 +36,7 @@ const CASES: [Entry; 14] = [
     ("overdamped", frictional::overdamped),
     ("stick-slip", frictional::stick_slip),
     ("fold", frictional::fold),
+    ("limit-cycle", frictional::limit_cycle),
     ("rounding", long::rounding),
     ("angles", long::angles),
 ];

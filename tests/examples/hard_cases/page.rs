@@ -24,7 +24,7 @@ pub struct Case {
     pub rows: Vec<Vec<String>>,
     /// Panels of the picture, two in a row.
     pub panels: Vec<Panel<'static>>,
-    /// The quick test, in `tests/tests/rules/hard/`.
+    /// The quick test, in `tests/tests/rules/hard/` or, with a folder, in `tests/tests/`.
     pub test: &'static str,
 }
 
@@ -47,7 +47,8 @@ impl Case {
         if !self.panels.is_empty() {
             let _ = write!(text, "\n![{}](hard-cases/{name}.svg)\n", self.title);
         }
-        let _ = write!(text, "\nQuick version: `tests/tests/rules/hard/{}`.\n", self.test);
+        let folder = if self.test.contains('/') { "" } else { "rules/hard/" };
+        let _ = write!(text, "\nQuick version: `tests/tests/{folder}{}`.\n", self.test);
         text
     }
 

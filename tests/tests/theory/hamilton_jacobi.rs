@@ -11,3 +11,4 @@ mod hamilton_equations;
 mod printed_family;
 mod printed_trajectory;
 mod sections;
+mod stationary;

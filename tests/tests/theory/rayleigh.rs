@@ -14,5 +14,6 @@ mod potential;
 mod reciprocity;
 mod resplit;
 mod routh;
+mod small_friction;
 mod steps;
 mod structure;

@@ -36,7 +36,8 @@ use crate::theory::verdict::Verdict;
 ///
 /// The step and its derivative are all that this asks for, so that it serves rules, Gauss, compositions and
 /// splittings alike; the line must stay where steps can be taken. Of rules with L_d and R_d G has a closed
-/// form, [`ProportionalSplit`](crate::rayleigh::ProportionalSplit), the same but for the constant.
+/// form, [`ProportionalSplit`](crate::rayleigh::ProportionalSplit), the same but for the constant, and of an
+/// angle a stationary S, [`StationaryEquation`](super::StationaryEquation).
 ///
 /// The factor c is found at the states given, and every step of a characteristic is held against it, with an
 /// error if it misses: a c that is none is never used.

@@ -99,7 +99,7 @@ pub struct ProportionalSplit<'a, L, R, const N: usize>
 where
     L: Discrete<R, N>,
 {
-    by: Discretised<'a, L, R, N>,
+    pub(in crate::theory) by: Discretised<'a, L, R, N>,
     kappa: L::Scalar,
     base: SVector<L::Scalar, N>,
 }
