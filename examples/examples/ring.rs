@@ -359,7 +359,7 @@ fn draw(motions: &Motions, plain: &Balance, modified: &Balance) -> Result<[PathB
         )
         .to_equal_scale(),
         Panel::new(
-            "Its energy falls to friction only",
+            "Its energy: off by up to 9e-3, without trend",
             axis,
             linear("energy E (dimensionless)"),
             vec![
