@@ -122,8 +122,8 @@ impl<const N: usize> Massless<N> {
         balance
     }
 
-    /// The derivatives of [`balance`](Self::balance) by parameters at fixed (q, v), from those of ∂L/∂v and of
-    /// ∂L/∂q + f_L.
+    /// The derivatives of [`balance`](Self::balance) by parameters at fixed (q, v), from those of ∂L/∂v and
+    /// of ∂L/∂q + f_L.
     pub(crate) fn balance_by<S: Scalar, const P: usize>(
         &self,
         momentum: &SMatrix<S, N, P>,
