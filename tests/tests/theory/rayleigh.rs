@@ -5,6 +5,7 @@ mod conformal;
 mod dissipation;
 mod equivalence;
 mod modified;
+mod modified_ends;
 mod modified_linear;
 mod modified_range;
 mod one_end;
