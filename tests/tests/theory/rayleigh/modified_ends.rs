@@ -8,6 +8,9 @@ use dalembert::nalgebra::{DVector, SVD};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
+const MIDPOINT: Method = Method::Nodes(&[(0.5, 1.0)]);
+const TRAPEZOIDAL: Method = Method::Nodes(&[(0.0, 0.5), (1.0, 0.5)]);
+
 /// What (L₃, R₃) have to meet and cannot: the directions that their map does not reach.
 struct Conditions {
     /// Singular values of the map.
@@ -60,18 +63,18 @@ fn random(n: usize, seed: u64) -> System {
 #[test]
 fn of_three_coordinates_one_condition_is_asked_of_two_none() {
     for system in [three(), random(3, 1)] {
-        let mut found = Conditions::of(system.equations(Method::Midpoint, 0.1).0).singular;
+        let mut found = Conditions::of(system.equations(MIDPOINT, 0.1).0).singular;
         found.sort_by(f64::total_cmp);
         println!("{:.2e} {:.2e} … {:.2e}", found[0], found[1], found[62]);
         assert!(found.len() == 63 && found[0] < 1e-13 && found[1] > 0.1);
     }
     // Of four coordinates four: n(n − 1)(n − 2)/6, as many as 3-forms have components.
-    let (map, _) = random(4, 1).equations(Method::Midpoint, 0.1);
+    let (map, _) = random(4, 1).equations(MIDPOINT, 0.1);
     let pivots = map.transpose().col_piv_qr().unpack_r().diagonal().abs();
     assert_eq!(pivots.iter().filter(|pivot| **pivot > 1e-10 * pivots.max()).count(), 140);
     assert_eq!(pivots.len(), 144);
     for seed in 0..5 {
-        let found = Conditions::of(random(2, seed).equations(Method::Midpoint, 0.1).0);
+        let found = Conditions::of(random(2, seed).equations(MIDPOINT, 0.1).0);
         assert!(found.singular.len() == 20 && found.directions.is_empty());
     }
 }
@@ -82,18 +85,18 @@ fn the_term_of_order_four_is_no_rayleigh_system() {
     let even = System { c: three().m * 0.4, ..three() };
     // By a program of its own in another language, with eigenvectors for the series here.
     let known = [
-        (0.1, Method::Midpoint, 1.610_947_8e-7),
-        (0.1, Method::Trapezoidal, 5.547_922_4e-7),
-        (0.05, Method::Midpoint, 1.010_140_2e-8),
-        (0.05, Method::Trapezoidal, 3.456_431_1e-8),
+        (0.1, MIDPOINT, 1.610_947_8e-7),
+        (0.1, TRAPEZOIDAL, 5.547_922_4e-7),
+        (0.05, MIDPOINT, 1.010_140_2e-8),
+        (0.05, TRAPEZOIDAL, 3.456_431_1e-8),
     ];
     for (h, method, expected) in known {
         let found = residual(&three(), method, h);
-        println!("{method:?}, h = {h}: {found:.6e}, {:.4} h⁴", found / h.powi(4));
+        println!("h = {h}: {found:.6e}, {:.4} h⁴", found / h.powi(4));
         assert!((found / expected - 1.0).abs() < 1e-5, "{found} {expected}");
         assert!(residual(&three(), Method::Exact, h) < 1e-14);
     }
-    let [by_even, finer] = [0.2, 0.1].map(|h| residual(&even, Method::Midpoint, h));
+    let [by_even, finer] = [0.2, 0.1].map(|h| residual(&even, MIDPOINT, h));
     println!("C = 2aM: {by_even:.2e} {finer:.2e}");
     assert!(((by_even / finer).log2() - 8.0).abs() < 0.2 && finer < 1e-12);
 }
@@ -132,8 +135,7 @@ fn the_obstruction_is_a_3_form() {
     };
     let [coarse, fine] = [0.1, 0.05].map(|h| {
         // The map does not depend on V‴.
-        let of =
-            |third: &Cubic| System { third: third.clone(), ..small.clone() }.equations(Method::Midpoint, h);
+        let of = |third: &Cubic| System { third: third.clone(), ..small.clone() }.equations(MIDPOINT, h);
         let conditions = Conditions::of(of(&basis[0]).0);
         let missed = |third| conditions.directions[0].dot(&of(third).1);
         let found = DVector::from_iterator(10, basis.iter().map(missed));
@@ -145,11 +147,31 @@ fn the_obstruction_is_a_3_form() {
 
     let fall = |c: &Matrix, sizes: [f64; 2]| {
         let [most, least] =
-            sizes.map(|size| residual(&System { c: c * size, ..system.clone() }, Method::Midpoint, 0.025));
+            sizes.map(|size| residual(&System { c: c * size, ..system.clone() }, MIDPOINT, 0.025));
         (most / least).log2()
     };
     let classical = &system.m * 0.2 + &system.k * 0.1;
     let [third_order, first_order] = [fall(&classical, [4.0, 2.0]), fall(&system.c, [0.1, 0.05])];
     println!("orders in C: {third_order:.3} classical, {first_order:.3} another");
     assert!((third_order - 3.0).abs() < 0.1 && (first_order - 1.0).abs() < 0.01);
+}
+
+/// To first order in C the obstruction has the factor 5σ − 1, σ = Σ bᵢcᵢ(1 − cᵢ): of rules with σ = ⅕ it is of
+/// third order in C.
+#[test]
+fn the_obstruction_goes_by_one_moment_of_the_rule() {
+    const SIMPSON: Method = Method::Nodes(&[(0.0, 1.0 / 6.0), (0.5, 2.0 / 3.0), (1.0, 1.0 / 6.0)]);
+    const QUARTERS: Method = Method::Nodes(&[(0.25, 0.5), (0.75, 0.5)]);
+    const FIFTH: Method = Method::Nodes(&[(0.0, 0.1), (0.5, 0.8), (1.0, 0.1)]);
+    let system = three();
+    let by = |method, size: f64| residual(&System { c: &system.c * size, ..system.clone() }, method, 0.025);
+    let by_midpoint = by(MIDPOINT, 0.01);
+    for (method, moment) in [(TRAPEZOIDAL, 0.0), (SIMPSON, 1.0 / 6.0), (QUARTERS, 3.0 / 16.0)] {
+        let factor = by(method, 0.01) / by_midpoint;
+        println!("{factor:.4}, expected {:.4}", 4.0 * f64::abs(5.0 * moment - 1.0));
+        assert!((factor - 4.0 * f64::abs(5.0 * moment - 1.0)).abs() < 3e-3);
+    }
+    let [most, least] = [0.8, 0.4].map(|size| by(FIFTH, size));
+    println!("σ = ⅕: {least:.2e}, order in C {:.3}", (most / least).log2());
+    assert!(((most / least).log2() - 3.0).abs() < 0.1 && least < 0.1 * by(MIDPOINT, 0.4));
 }

@@ -71,8 +71,8 @@ pub struct System {
 
 #[derive(Clone, Copy, Debug)]
 pub enum Method {
-    Midpoint,
-    Trapezoidal,
+    /// The rule of these nodes and weights on the straight line.
+    Nodes(&'static [(f64, f64)]),
     /// The control: the motion itself, through the same equations for b.
     Exact,
 }
@@ -115,27 +115,31 @@ impl System {
     /// The step z ↦ Az + εB(z, z).
     fn step(&self, method: Method, h: f64) -> (Matrix, Quadratic) {
         let n = self.n();
-        let (one, zero) = (Matrix::identity(n, n), Matrix::zeros(n, n));
+        let zero = Matrix::zeros(n, n);
         let inverse = self.m.clone().try_inverse().unwrap();
         let x = stacked(&beside(&zero, &inverse), &beside(&-&self.k, &(-&self.c * &inverse)));
-        let all = Matrix::identity(2 * n, 2 * n);
         match method {
-            Method::Midpoint => {
-                let solve = (&all - &x * (0.5 * h)).try_inverse().unwrap();
-                let a = &solve * (&all + &x * (0.5 * h));
-                let b = self.pull().at(&((&all + &a) * 0.5)).under(&(&solve * h));
-                (a, b)
-            }
-            // (M/h + C/2)(q1 − q0) = p0 − (h/2)∇V(q0), p1 = (M/h − C/2)(q1 − q0) − (h/2)∇V(q1).
-            Method::Trapezoidal => {
-                let solve = (&self.m / h + &self.c * 0.5).try_inverse().unwrap();
-                let back = &self.m / h - &self.c * 0.5;
-                let q1 = beside(&(&one - &solve * &self.k * (0.5 * h)), &solve);
-                let p1 = &back * (&q1 - beside(&one, &zero)) - &self.k * &q1 * (0.5 * h);
+            // p0 = (M/h + C/2)d + h Σ bᵢ(1 − cᵢ)∇V(qᵢ), p1 = (M/h − C/2)d − h Σ bᵢcᵢ∇V(qᵢ), d = q1 − q0.
+            Method::Nodes(nodes) => {
+                let mean = |f: fn(f64) -> f64| nodes.iter().map(|(c, b)| b * f(*c)).sum::<f64>() * h;
+                let (ahead, back) = (&self.m / h + &self.c * 0.5, &self.m / h - &self.c * 0.5);
+                let (first, both, last) =
+                    (mean(|c| (1.0 - c) * (1.0 - c)), mean(|c| c * (1.0 - c)), mean(|c| c * c));
+                let solve = (&ahead + &self.k * both).try_inverse().unwrap();
+                let q0 = beside(&Matrix::identity(n, n), &zero);
+                let q1 = beside(&(&solve * (ahead - &self.k * first)), &solve);
+                let end = back - &self.k * last;
+                let p1 = &end * &q1 - (&self.m / h - &self.c * 0.5 + &self.k * both) * &q0;
                 let pull = self.pull().part(n..2 * n);
-                let by_q = pull.under(&(&solve * (0.5 * h)));
-                let moved = stacked(&q1, &Matrix::zeros(n, 2 * n));
-                let by_p = by_q.under(&(back - &self.k * (0.5 * h))).plus(&pull.at(&moved), 0.5 * h);
+                let none = Quadratic(vec![Matrix::zeros(2 * n, 2 * n); n]);
+                let pulls = |share: fn(f64) -> f64| {
+                    nodes.iter().fold(none.clone(), |sum, &(c, b)| {
+                        let q = stacked(&(&q0 * (1.0 - c) + &q1 * c), &Matrix::zeros(n, 2 * n));
+                        sum.plus(&pull.at(&q), h * b * share(c))
+                    })
+                };
+                let by_q = pulls(|c| 1.0 - c).under(&solve);
+                let by_p = by_q.under(&end).plus(&pulls(|c| c), 1.0);
                 (stacked(&q1, &p1), Quadratic([by_q.0, by_p.0].concat()))
             }
             // B = e^{hX} h (1 + hX·/2! + (hX·)²/3! + …) b, X· the bracket.
