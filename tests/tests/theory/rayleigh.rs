@@ -4,6 +4,7 @@ mod classical_damping;
 mod conformal;
 mod dissipation;
 mod equivalence;
+mod manifold;
 mod modified;
 mod modified_ends;
 mod modified_linear;
