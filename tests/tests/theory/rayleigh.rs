@@ -14,6 +14,7 @@ mod order_four;
 mod potential;
 mod reciprocity;
 mod resplit;
+mod rigid_body;
 mod routh;
 mod steps;
 mod structure;
