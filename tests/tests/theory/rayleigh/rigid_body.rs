@@ -4,7 +4,9 @@
 //!
 //! h μ0 = (W J⁺ − J⁺Wᵀ)^∨,   h μ1 = (J⁻W − WᵀJ⁻)^∨
 
-use dalembert::nalgebra::{Matrix3, Rotation3, Vector3, matrix, vector};
+use dalembert::nalgebra::{Matrix3, Rotation3, SMatrix, Vector3, matrix, vector};
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
 
 type Matrix = Matrix3<f64>;
 type Vector = Vector3<f64>;
@@ -178,6 +180,20 @@ fn the_one_forms_of_the_step_are_closed() {
     }
 }
 
+/// (∇_X C)(Y, v) − (∇_Y C)(X, v) on pairs of unit vectors, of the left-invariant metric I with ∇_X Y = ½X × Y +
+/// ½I⁻¹(X × IY + Y × IX).
+fn codazzi(inertia: &Matrix, friction: &Matrix, v: &Vector) -> Matrix {
+    let inverse = inertia.try_inverse().unwrap();
+    let carried = |x: &Vector, y: &Vector| {
+        (x.cross(y) + inverse * (x.cross(&(inertia * y)) + y.cross(&(inertia * x)))) * 0.5
+    };
+    let of = |a: &Vector, b: &Vector| a.dot(&(friction * b));
+    Matrix::from_fn(|i, j| {
+        let (x, y) = (&UNITS[i], &UNITS[j]);
+        of(x, &carried(y, v)) - of(y, &carried(x, v)) - of(&x.cross(y), v)
+    })
+}
+
 /// The exact step of the damped body has an R_d for C = 2aI; of another C its first form is −(h/3)[(∇_X C)(Y, ω) −
 /// (∇_Y C)(X, ω)] + O(h²), the Codazzi form of the left-invariant metric.
 #[test]
@@ -195,19 +211,9 @@ fn the_exact_step_has_an_r_d_where_friction_is_proportional_to_inertia() {
         println!("C = 2aI, h = {h}: {even:.1e}");
         assert!(even < 1e-9);
     }
-    // ∇_X Y = ½X × Y + ½I⁻¹(X × IY + Y × IX).
     let codazzi = |body: &Body, momentum: &Vector| {
-        let (inertia, friction) = (moment(&body.inertia), moment(&body.damping));
-        let inverse = inertia.try_inverse().unwrap();
-        let v = inverse * momentum;
-        let carried = |x: &Vector, y: &Vector| {
-            (x.cross(y) + inverse * (x.cross(&(inertia * y)) + y.cross(&(inertia * x)))) * 0.5
-        };
-        Matrix::from_fn(|i, j| {
-            let (x, y) = (&UNITS[i], &UNITS[j]);
-            let of = |a: &Vector, b: &Vector| a.dot(&(friction * b));
-            of(x, &carried(y, &v)) - of(y, &carried(x, &v)) - of(&x.cross(y), &v)
-        })
+        let inertia = moment(&body.inertia);
+        codazzi(&inertia, &moment(&body.damping), &(inertia.try_inverse().unwrap() * momentum))
     };
     // C = 1, and a general one.
     let round = Body { damping: Matrix::identity() * 0.15, ..GENERAL };
@@ -221,4 +227,35 @@ fn the_exact_step_has_an_r_d_where_friction_is_proportional_to_inertia() {
         println!("{:.5} {:.1e}", expected.amax(), (limit - expected).amax());
         assert!(expected.amax() > 1e-2 && (limit - expected).amax() < 2e-3 * expected.amax());
     }
+}
+
+/// Of a body, I₁ ≤ I₂ + I₃ and so on, no friction but C = 2aI is a Codazzi tensor. The control is no body:
+/// √I₃ = √I₁ + √I₂.
+#[test]
+fn the_codazzi_tensors_of_a_body_are_the_multiples_of_its_inertia() {
+    let mut random = StdRng::seed_from_u64(31);
+    let mut masses = || {
+        vector![random.random_range(0.0..1.0), random.random_range(0.1..1.0), random.random_range(0.1..1.0)]
+    };
+    let kernel = |inertia: &Matrix| {
+        // The form is linear in C, v and the pair.
+        let columns: [SMatrix<f64, 9, 1>; 6] =
+            [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].map(|(i, j)| {
+                let mut friction = Matrix::zeros();
+                (friction[(i, j)], friction[(j, i)]) = (1.0, 1.0);
+                let forms = UNITS.map(|v| codazzi(inertia, &friction, &v));
+                SMatrix::from_fn(|at, _| [(0, 1), (0, 2), (1, 2)].map(|pair| forms[at / 3][pair])[at % 3])
+            });
+        let found = SMatrix::<f64, 9, 6>::from_columns(&columns).singular_values();
+        found.iter().filter(|value| **value < 1e-12 * found.max()).count()
+    };
+    for _ in 0..40 {
+        // Of second moments of mass; one of them is 0 of a lamina.
+        let turn = exp(&masses());
+        let inertia = turn * moment(&Matrix::from_diagonal(&masses())) * turn.transpose();
+        assert_eq!(kernel(&inertia), 1);
+        assert!(UNITS.iter().all(|v| codazzi(&inertia, &inertia, v).amax() < 1e-14));
+    }
+    assert_eq!(kernel(&moment(&Matrix::from_diagonal(&vector![0.0, 1.0, 2.0]))), 1);
+    assert_eq!(kernel(&Matrix::from_diagonal(&vector![4.0, 9.0, 25.0])), 2);
 }
