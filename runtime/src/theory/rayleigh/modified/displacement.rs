@@ -22,7 +22,8 @@ use crate::theory::rayleigh::modified::ModifiedSystemError;
 /// w = 12σ − 2,  σ = Σ bᵢcᵢ(1 − cᵢ):          1 midpoint, −2 trapezoidal, 0 Simpson's rule
 /// ```
 ///
-/// So all rules have one R̃; they differ in the mass alone.
+/// So all rules have one R̃; they differ in the mass alone. For n ≥ 3 there is no such system at order h⁴: in
+/// general its equation is that of no L and R (docs/theory.md, section 3).
 ///
 /// **Derivation.** The run satisfies M(q₋ − 2q + q₊)/h² + C(q₊ − q₋)/2h + Σ bᵢ[cᵢ∇V(q − (1 − cᵢ)(q − q₋)) +
 /// (1 − cᵢ)∇V(q + cᵢ(q₊ − q))] = 0. For a smooth q(t) with q± = q(t ± h) that is, to O(h⁴),

@@ -10,7 +10,7 @@ pub type Matrix = DMatrix<f64>;
 
 /// A quadratic map z ↦ (zᵀQ₀z, zᵀQ₁z, …), Qᵢ symmetric.
 #[derive(Clone)]
-struct Quadratic(Vec<Matrix>);
+pub struct Quadratic(pub Vec<Matrix>);
 
 impl Quadratic {
     fn plus(&self, other: &Self, factor: f64) -> Self {
@@ -77,6 +77,14 @@ pub enum Method {
     Exact,
 }
 
+/// q̈ = −M̃⁻¹(K̃q + C̃v) + εg(q, v).
+pub struct Modified {
+    /// (q, v) ↦ (v, q̈) at ε = 0.
+    pub rate: Matrix,
+    /// M̃g.
+    pub force: Quadratic,
+}
+
 /// The rows of `upper` above those of `lower`.
 fn stacked(upper: &Matrix, lower: &Matrix) -> Matrix {
     let n = upper.nrows();
@@ -95,7 +103,7 @@ fn beside(left: &Matrix, right: &Matrix) -> Matrix {
 }
 
 impl System {
-    fn n(&self) -> usize {
+    pub fn n(&self) -> usize {
         self.m.nrows()
     }
 
@@ -180,8 +188,8 @@ impl System {
         (y, field)
     }
 
-    /// The map (L₃, R₃) ↦ equations, and the equations to be met.
-    pub fn equations(&self, method: Method, h: f64) -> (Matrix, DVector<f64>) {
+    /// The modified system as an equation of second order.
+    pub fn modified(&self, method: Method, h: f64) -> Modified {
         let n = self.n();
         let (y, field) = self.field(method, h);
         let block = |i: usize, j: usize| y.view((i * n, j * n), (n, n)).into_owned();
@@ -195,7 +203,13 @@ impl System {
         // With p = b⁻¹(v − aq − εb_q): εg = ε(b b_p − b d b⁻¹ b_q + d/dt b_q).
         let (at_q, at_p) = (bent.part(0..n), bent.part(n..2 * n));
         let g = at_p.under(&b).plus(&at_q.under(&(&b * d * &mass)), -1.0).plus(&at_q.along(&rate), 1.0);
+        Modified { rate, force: g.under(&mass) }
+    }
 
+    /// The map (L₃, R₃) ↦ equations, and the equations to be met.
+    pub fn equations(&self, method: Method, h: f64) -> (Matrix, DVector<f64>) {
+        let Modified { rate, force } = self.modified(method, h);
+        let n = self.n();
         let size = 2 * n;
         let mut columns = Vec::new();
         for (i, j, k) in triples(size) {
@@ -206,7 +220,7 @@ impl System {
             columns.push(by_v.along(&rate).plus(&by_q, -1.0).coefficients());
             columns.push(by_v.coefficients());
         }
-        (Matrix::from_columns(&columns), -g.under(&mass).coefficients())
+        (Matrix::from_columns(&columns), -force.coefficients())
     }
 }
 
