@@ -1,5 +1,5 @@
-//! On a Riemannian manifold, L = ½g(v, v) − V and R = ½C(v, v): the exact step is a Rayleigh step for all small h
-//! only if C is a Codazzi tensor, (∇_X C)(Y, v) = (∇_Y C)(X, v).
+//! On a Riemannian manifold, L = ½g(v, v) − V and R = ½C(v, v): the exact step is a Rayleigh step for all
+//! small h only if C is a Codazzi tensor, (∇_X C)(Y, v) = (∇_Y C)(X, v).
 
 use dalembert::exact::{Exact, ExactSegment};
 use dalembert::nalgebra::{Matrix2, SMatrix, SVector, Vector2, matrix, vector};

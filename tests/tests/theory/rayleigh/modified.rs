@@ -148,8 +148,8 @@ where
     for slope in slopes(modified) {
         assert!((slope - 4.0).abs() < 0.1, "{slope}");
     }
-    // The controls: the motion of (L, R), the modified one with the velocity M⁻¹p or with ∂L̃/∂v = p, and that
-    // of another rule.
+    // The controls: the motion of (L, R), the modified one with the velocity M⁻¹p or with ∂L̃/∂v = p, and
+    // that of another rule.
     let plain = errors(&|h, states| off(&Bent, V.into(), h, states));
     let by_mass = errors(&|h, states| off(&OnPaper::of::<M>(h), V.into(), h, states));
     let by_momentum = errors(&|h, states| {
@@ -169,8 +169,8 @@ where
     }
 }
 
-/// The q of the run lie to O(h⁴) on the motion of (L̃, R̃) that starts with the velocity of the formula; not on
-/// that of another rule's, the midpoint's for the trapezoidal rule.
+/// The q of the run lie to O(h⁴) on the motion of (L̃, R̃) that starts with the velocity of the formula; not
+/// on that of another rule's, the midpoint's for the trapezoidal rule.
 #[test]
 fn the_run_lies_on_the_motion_of_the_modified_system() {
     assert_lies_on_the_modified_motion::<Midpoint>();

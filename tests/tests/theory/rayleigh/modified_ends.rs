@@ -1,6 +1,6 @@
-//! The end of the modified Rayleigh system: at order h⁴, for n ≥ 3, the modified equation of the midpoint and of
-//! the trapezoidal rule has none. To first order in C and V‴ docs/theory.md proves it; ranks and higher orders
-//! in C are numerical.
+//! The end of the modified Rayleigh system: at order h⁴, for n ≥ 3, the modified equation of the midpoint and
+//! of the trapezoidal rule has none. To first order in C and V‴ docs/theory.md proves it; ranks and higher
+//! orders in C are numerical.
 
 mod cubic;
 
@@ -15,7 +15,7 @@ const SIMPSON: Method = Method::Nodes(&[(0.0, 1.0 / 6.0), (0.5, 2.0 / 3.0), (1.0
 /// Σ bᵢcᵢ(1 − cᵢ) = ⅕.
 const FIFTH: Method = Method::Nodes(&[(0.0, 0.1), (0.5, 0.8), (1.0, 0.1)]);
 
-/// What (L₃, R₃) have to meet and cannot: the directions that their map does not reach.
+/// Conditions that no (L₃, R₃) meets: the directions that their map does not reach.
 struct Conditions {
     /// Singular values of the map.
     singular: Vec<f64>,
@@ -131,8 +131,8 @@ fn distinct(n: usize) -> impl Iterator<Item = [usize; 3]> {
     triples(n).filter(|(i, j, k)| i < j && j < k).map(|(i, j, k)| [i, j, k])
 }
 
-/// Alt of the force S(q, v) that is odd in v and in C, in the equation M̃q̈ + … + εS = 0 with the mass M̃ + εW(q)
-/// of C = 0.
+/// Alt of the force S(q, v) that is odd in v and in C, in the equation M̃q̈ + … + εS = 0 with the mass M̃ +
+/// εW(q) of C = 0.
 fn torsion(system: &System, method: Method, h: f64) -> Vec<f64> {
     let n = system.n();
     let [ahead, still, back] =
@@ -169,7 +169,7 @@ fn the_obstruction_is_a_3_form() {
     }
 }
 
-/// What is left of the equations is of first order in C, and of third where C = αM + βV″, of which Θ = 0.
+/// The rest of the equations is of first order in C, and of third where C = αM + βV″, of which Θ = 0.
 #[test]
 fn classical_damping_leaves_third_order() {
     let system = three();
@@ -184,8 +184,8 @@ fn classical_damping_leaves_third_order() {
     assert!((third_order - 3.0).abs() < 0.1 && (first_order - 1.0).abs() < 0.01);
 }
 
-/// To first order in C the obstruction has the factor 5σ − 1, σ = Σ bᵢcᵢ(1 − cᵢ): of rules with σ = ⅕ it is of
-/// third order in C.
+/// To first order in C the obstruction has the factor 5σ − 1, σ = Σ bᵢcᵢ(1 − cᵢ): of rules with σ = ⅕ it is
+/// of third order in C.
 #[test]
 fn the_obstruction_goes_by_one_moment_of_the_rule() {
     const QUARTERS: Method = Method::Nodes(&[(0.25, 0.5), (0.75, 0.5)]);

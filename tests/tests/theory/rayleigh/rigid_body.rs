@@ -154,8 +154,8 @@ fn the_coadjoint_orbit_shrinks_by_the_same_factor_each_step() {
     assert!((f64::exp(-2.0 * a * h * steps as f64) / expected - 1.0).abs() > 1e-5);
 }
 
-/// d⟨μ1, W⁻¹dW⟩ and d⟨μ0, dW W⁻¹⟩ on pairs of unit vectors, from the derivatives of μ1 by W exp x and of μ0 by
-/// (exp x)W.
+/// d⟨μ1, W⁻¹dW⟩ and d⟨μ0, dW W⁻¹⟩ on pairs of unit vectors, from the derivatives of μ1 by W exp x and of μ0
+/// by (exp x)W.
 fn closedness([by_left, by_right]: [&Matrix; 2], [start, end]: [&Vector; 2]) -> [Matrix; 2] {
     let bracket = |momentum: &Vector| momentum.cross_matrix().transpose();
     [by_left.transpose() - by_left - bracket(end), by_right.transpose() - by_right + bracket(start)]
@@ -180,8 +180,8 @@ fn the_one_forms_of_the_step_are_closed() {
     }
 }
 
-/// (∇_X C)(Y, v) − (∇_Y C)(X, v) on pairs of unit vectors, of the left-invariant metric I with ∇_X Y = ½X × Y +
-/// ½I⁻¹(X × IY + Y × IX).
+/// (∇_X C)(Y, v) − (∇_Y C)(X, v) on pairs of unit vectors, of the left-invariant metric I with ∇_X Y = ½X × Y
+/// + ½I⁻¹(X × IY + Y × IX).
 fn codazzi(inertia: &Matrix, friction: &Matrix, v: &Vector) -> Matrix {
     let inverse = inertia.try_inverse().unwrap();
     let carried = |x: &Vector, y: &Vector| {
@@ -194,8 +194,8 @@ fn codazzi(inertia: &Matrix, friction: &Matrix, v: &Vector) -> Matrix {
     })
 }
 
-/// The exact step of the damped body has an R_d for C = 2aI; of another C its first form is −(h/3)[(∇_X C)(Y, ω) −
-/// (∇_Y C)(X, ω)] + O(h²), the Codazzi form of the left-invariant metric.
+/// The exact step of the damped body has an R_d for C = 2aI; of another C its first form is −(h/3)[(∇_X C)(Y,
+/// ω) − (∇_Y C)(X, ω)] + O(h²), the Codazzi form of the left-invariant metric.
 #[test]
 fn the_exact_step_has_an_r_d_where_friction_is_proportional_to_inertia() {
     let form = |body: &Body, h: f64| {

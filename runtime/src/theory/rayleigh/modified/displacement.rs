@@ -1,5 +1,5 @@
-//! The modified Lagrangian and Rayleigh function of rules by nodes on the straight line, to O(h⁴): the midpoint
-//! and the trapezoidal rule, and self-adjoint ones of one's own.
+//! The modified Lagrangian and Rayleigh function of rules by nodes on the straight line, to O(h⁴): the
+//! midpoint and the trapezoidal rule, and self-adjoint ones of one's own.
 
 use nalgebra::{SMatrix, SVector};
 
