@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! linear systems, any method        M̃, C̃ and K̃ from log A, exactly                ModifiedLinearSystem
-//! ½vᵀMv − V(q), ½vᵀCv, midpoint     L̃ and R̃, to O(h⁴)                              ModifiedSystem
+//! ½vᵀMv − V(q), ½vᵀCv, midpoint
+//! and trapezoidal rule              L̃ and R̃, to O(h⁴)                              ModifiedSystem
 //! ```
 //!
 //! Where the modified system has a Rayleigh function R̃, the run loses its modified energy at the rate 2R̃,
@@ -10,14 +11,14 @@
 
 mod branch;
 mod criterion;
+mod displacement;
 mod error;
 mod linear;
 mod linear_steps;
 mod logarithm;
-mod midpoint;
 mod scaled;
 mod schur;
 
+pub use displacement::ModifiedSystem;
 pub use error::{ModifiedLinearSystemError, ModifiedSystemError};
 pub use linear::ModifiedLinearSystem;
-pub use midpoint::ModifiedSystem;

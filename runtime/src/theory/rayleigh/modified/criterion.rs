@@ -1,4 +1,4 @@
-//! The step size up to which the midpoint rule's R̃ is ≥ 0:
+//! The step size up to which R̃ is ≥ 0:
 //! [`ModifiedSystem::largest_step`](crate::rayleigh::modified::ModifiedSystem::largest_step).
 
 use nalgebra::SMatrix;

@@ -122,7 +122,7 @@ debug_by_display!(ModifiedLinearSystemError);
 
 impl core::error::Error for ModifiedLinearSystemError {}
 
-/// Why the midpoint rule has no [`ModifiedSystem`](crate::rayleigh::modified::ModifiedSystem) here: the
+/// Why the rule has no [`ModifiedSystem`](crate::rayleigh::modified::ModifiedSystem) here: the
 /// formulas are those of L = ½vᵀMv − V(q) and R = ½vᵀCv.
 #[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -169,7 +169,7 @@ impl fmt::Display for ModifiedSystemError {
             Self::GeneralForce => f.write_str("there is a general force; the formulas are of L and R alone"),
             Self::Timed => f.write_str("L or R takes the time; the formulas are of systems without"),
             Self::Mass(error) => write!(f, "the mass matrix M: {error}"),
-            Self::Singular => f.write_str("M + (h²/12)(V″ − CM⁻¹C) is singular; take a smaller step"),
+            Self::Singular => f.write_str("the modified mass matrix is singular; take a smaller step"),
             Self::NotDissipative => {
                 f.write_str("R takes negative values: no step size makes the modified one ≥ 0")
             }

@@ -1,42 +1,49 @@
-//! The modified Lagrangian and Rayleigh function of the midpoint rule, to O(h⁴).
+//! The modified Lagrangian and Rayleigh function of rules by nodes on the straight line, to O(h⁴): the
+//! midpoint and the trapezoidal rule, and self-adjoint ones of one's own.
 
 use nalgebra::{SMatrix, SVector};
 
 use super::criterion::largest_step;
 use crate::numbers::{Gradient, Scalar};
-use crate::rules::{Midpoint, require_positive_definite};
+use crate::rules::{DisplacementRule, SelfAdjoint, require_positive_definite};
 use crate::step::{Discretised, State, invert};
 use crate::system::{ActingForce, Damping, SecondOrder};
 use crate::theory::rayleigh::modified::ModifiedSystemError;
 
-/// The system on whose motion the midpoint rule's run lies to O(h⁴), where its own motion is left at O(h²).
+/// The system on whose motion the rule's run lies to O(h⁴), where its own motion is left at O(h²).
 ///
-/// Of L = ½vᵀMv − V(q) and R = ½vᵀCv with constant M and C:
+/// Of L = ½vᵀMv − V(q) and R = ½vᵀCv with constant M and C, by nodes cᵢ with weights bᵢ, symmetric about ½:
 ///
 /// ```text
-/// L̃ = ½vᵀM̃(q)v − V + (h²/24) ∇VᵀM⁻¹∇V       M̃ = M + (h²/12)(V″ − CM⁻¹C)
+/// L̃ = ½vᵀM̃(q)v − V + (h²/24) ∇VᵀM⁻¹∇V       M̃ = M + (h²/12)(wV″ − CM⁻¹C)
 /// R̃ = ½vᵀC̃(q)v                              C̃ = C − (h²/12)(CM⁻¹V″ + V″M⁻¹C)
 /// Ẽ = v·∂L̃/∂v − L̃ = ½vᵀM̃v + V − (h²/24) ∇VᵀM⁻¹∇V,     dẼ/dt = −2R̃ along its motions
+///
+/// w = 12σ − 2,  σ = Σ bᵢcᵢ(1 − cᵢ):          1 midpoint, −2 trapezoidal, 0 Simpson's rule
 /// ```
 ///
-/// **Derivation.** The run satisfies M(q₋ − 2q + q₊)/h² + C(q₊ − q₋)/2h + ½[∇V(½(q₋ + q)) + ∇V(½(q + q₊))] =
-/// 0. For a smooth q(t) with q± = q(t ± h) that is, to O(h⁴),
+/// So all rules have one R̃; they differ in the mass alone. For n ≥ 3 there is no such system at order h⁴: in
+/// general its equation is that of no L and R (docs/theory.md, section 3).
+///
+/// **Derivation.** The run satisfies M(q₋ − 2q + q₊)/h² + C(q₊ − q₋)/2h + Σ bᵢ[cᵢ∇V(q − (1 − cᵢ)(q − q₋)) +
+/// (1 − cᵢ)∇V(q + cᵢ(q₊ − q))] = 0. For a smooth q(t) with q± = q(t ± h) that is, to O(h⁴),
 ///
 /// ```text
-/// Mq̈ + Cq̇ + ∇V + h² [ (1/12) Mq⁗ + (1/6) Cq⃛ + (1/4) V″q̈ + (1/8) V‴[q̇, q̇] ] = 0
+/// Mq̈ + Cq̇ + ∇V + h² [ (1/12) Mq⁗ + (1/6) Cq⃛ + σV″q̈ + ½σV‴[q̇, q̇] ] = 0
 /// ```
 ///
 /// In the bracket Mq̈ = −Cq̇ − ∇V may be used: Mq⁗ = −Cq⃛ − V″q̈ − V‴[q̇, q̇], then Cq⃛ = −CM⁻¹(Cq̈ + V″q̇),
 /// and the bracket less (1/12) V″M⁻¹(Mq̈ + Cq̇ + ∇V) becomes
 ///
 /// ```text
-/// (1/12)(V″ − CM⁻¹C) q̈ + (1/24) V‴[q̇, q̇] − (1/12) V″M⁻¹∇V − (1/12)(CM⁻¹V″ + V″M⁻¹C) q̇
+/// (1/12)(wV″ − CM⁻¹C) q̈ + (w/24) V‴[q̇, q̇] − (1/12) V″M⁻¹∇V − (1/12)(CM⁻¹V″ + V″M⁻¹C) q̇
 /// ```
 ///
 /// with which the equation is d/dt ∂L̃/∂v − ∂L̃/∂q + ∂R̃/∂v = 0.
 ///
 /// **The velocity at a node.** p is the mean of the momenta of the two segments that meet there,
-/// M(q₊ − q₋)/2h + (1/4) C(q₊ − 2q + q₋) + (h/4)[∇V(½(q + q₊)) − ∇V(½(q₋ + q))]; the same two steps give
+/// M(q₊ − q₋)/2h + (1/4) C(q₊ − 2q + q₋) + (h/2) Σ bᵢ[(1 − cᵢ)∇V(q + cᵢ(q₊ − q)) − cᵢ∇V(q − (1 − cᵢ)(q −
+/// q₋))], which is Mq̇ + h²[(1/6) Mq⃛ + (1/4) Cq̈ + σV″q̇] + O(h⁴); the same two steps give
 ///
 /// ```text
 /// p = M̃v − (h²/12) CM⁻¹∇V + O(h⁴)        v = M̃⁻¹(p + (h²/12) CM⁻¹∇V) + O(h⁴)
@@ -74,6 +81,8 @@ use crate::theory::rayleigh::modified::ModifiedSystemError;
 pub struct ModifiedSystem<'a, L: ActingForce<N>, const N: usize> {
     system: &'a L,
     h: L::Scalar,
+    /// w = 12 Σ bᵢcᵢ(1 − cᵢ) − 2 of the rule.
+    weight: L::Scalar,
     /// M⁻¹.
     inverse: SMatrix<L::Scalar, N, N>,
     /// M.
@@ -84,10 +93,12 @@ pub struct ModifiedSystem<'a, L: ActingForce<N>, const N: usize> {
     shift: SVector<L::Scalar, N>,
 }
 
-/// The modified system of the midpoint rule.
-impl<'a, L, const N: usize> Discretised<'a, L, Midpoint, N>
+/// The modified system of the midpoint and the trapezoidal rule, and of self-adjoint
+/// [`Quadrature`](crate::rules::Quadrature)s.
+impl<'a, L, Q, const N: usize> Discretised<'a, L, Q, N>
 where
     L: ActingForce<N>,
+    Q: DisplacementRule + SelfAdjoint,
 {
     /// The system on whose motion the run lies to O(h⁴), of L = ½vᵀMv − V(q) and R = ½vᵀCv with constant M
     /// and C: [`ModifiedSystem`](crate::rayleigh::modified::ModifiedSystem).
@@ -97,12 +108,12 @@ where
     /// one, or is not known to be of this kind: [`Structure`](crate::system::Structure) says what is known.
     pub fn modified_system(&self) -> Result<ModifiedSystem<'a, L, N>, ModifiedSystemError> {
         const { Self::require_unconstrained() };
-        ModifiedSystem::of(self.system(), self.step_size())
+        ModifiedSystem::of::<Q>(self.system(), self.step_size())
     }
 }
 
 impl<'a, L: ActingForce<N>, const N: usize> ModifiedSystem<'a, L, N> {
-    fn of(system: &'a L, h: L::Scalar) -> Result<Self, ModifiedSystemError> {
+    fn of<Q: DisplacementRule>(system: &'a L, h: L::Scalar) -> Result<Self, ModifiedSystemError> {
         let found = L::STRUCTURE;
         let h_wide = h.widen();
         if !h_wide.is_finite() || h_wide == 0.0 {
@@ -128,7 +139,9 @@ impl<'a, L: ActingForce<N>, const N: usize> ModifiedSystem<'a, L, N> {
         }
         require_positive_definite(&l.d22).map_err(ModifiedSystemError::Mass)?;
         let inverse = invert(&l.d22).map_err(ModifiedSystemError::Mass)?;
-        Ok(Self { system, h, inverse, mass: l.d22, damping: r.d22, shift: l.d2 })
+        let bent: f64 = Q::NODES.iter().map(|node| node.weight * node.position * (1.0 - node.position)).sum();
+        let weight = L::Scalar::constant(12.0 * bent - 2.0);
+        Ok(Self { system, h, weight, inverse, mass: l.d22, damping: r.d22, shift: l.d2 })
     }
 
     /// h²/`divisor`.
@@ -143,7 +156,7 @@ impl<'a, L: ActingForce<N>, const N: usize> ModifiedSystem<'a, L, N> {
     }
 
     fn mass_of(&self, hessian: &SMatrix<L::Scalar, N, N>) -> SMatrix<L::Scalar, N, N> {
-        self.mass + (hessian - self.damping * self.inverse * self.damping) * self.share(12.0)
+        self.mass + (hessian * self.weight - self.damping * self.inverse * self.damping) * self.share(12.0)
     }
 
     fn damping_of(&self, hessian: &SMatrix<L::Scalar, N, N>) -> SMatrix<L::Scalar, N, N> {
@@ -253,7 +266,7 @@ impl<L: ActingForce<N> + SecondOrder<N, 0>, const N: usize> ModifiedSystem<'_, L
         v: &SVector<L::Scalar, N>,
     ) -> Gradient<L::Scalar, N> {
         let (gradient, hessian) = self.potential(q);
-        let added = self.third(q, v) + hessian * self.inverse * gradient;
+        let added = self.third(q, v) * self.weight + hessian * self.inverse * gradient;
         Gradient {
             value: self.lagrangian(q, v),
             d1: added * self.share(12.0) - gradient,
@@ -271,8 +284,8 @@ impl<L: ActingForce<N> + SecondOrder<N, 0>, const N: usize> ModifiedSystem<'_, L
         v: &SVector<L::Scalar, N>,
     ) -> Result<SVector<L::Scalar, N>, ModifiedSystemError> {
         let inverse = invert(&self.mass(q)).map_err(|_| ModifiedSystemError::Singular)?;
-        // d/dt M̃(q) v = M̃q̈ + (h²/12)V‴[v, v].
-        let carried = self.third(q, v) * self.share(6.0);
+        // d/dt M̃(q) v = M̃q̈ + (h²/12)wV‴[v, v].
+        let carried = self.third(q, v) * self.weight * self.share(6.0);
         Ok(inverse * (self.lagrangian_gradient(q, v).d1 - self.friction(q, v) - carried))
     }
 }
