@@ -118,13 +118,13 @@ where
 }
 
 /// The largest difference of q between the run and the motion of `system` that starts with velocity `v`, by
-/// Gauss's rule of order 16.
+/// Gauss's rule of order 12.
 fn off<L>(system: &L, v: Vector2<f64>, h: f64, states: &[State<f64, 2>]) -> f64
 where
-    L: Flow<Gauss<8>, 2, Scalar = f64>,
+    L: Flow<Gauss<6>, 2, Scalar = f64>,
 {
     let start = State::from_velocity(system, Q, v).unwrap();
-    let motion = system.by(Gauss::<8>, h).run(start).map(|step| step.unwrap().state.q);
+    let motion = system.by(Gauss::<6>, h).run(start).map(|step| step.unwrap().state.q);
     motion.zip(&states[1..]).map(|(q, state)| (q - state.q).amax()).fold(0.0, f64::max)
 }
 
@@ -187,7 +187,7 @@ where
             let (paper, modified) = (OnPaper::of::<M>(h), Bent.by(M::RULE, h).modified_system().unwrap());
             let states = run::<M>(h);
             let start = State::from_velocity(&paper, Q, modified.velocity(&states[0]).unwrap()).unwrap();
-            let motion = paper.by(Gauss::<8>, h).run(start).map(|step| step.unwrap().state);
+            let motion = paper.by(Gauss::<6>, h).run(start).map(|step| step.unwrap().state);
             let off = motion.zip(&states[1..]).map(|(exact, state)| {
                 let v =
                     if by_formula { modified.velocity(state) } else { Ok(state.velocity(&Bent).unwrap()) };

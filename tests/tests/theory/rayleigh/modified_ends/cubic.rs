@@ -69,6 +69,7 @@ pub struct System {
     pub third: Cubic,
 }
 
+/// The step.
 #[derive(Clone, Copy, Debug)]
 pub enum Method {
     /// The rule of these nodes and weights on the straight line.
@@ -88,13 +89,8 @@ pub struct Modified {
 /// The rows of `upper` above those of `lower`.
 fn stacked(upper: &Matrix, lower: &Matrix) -> Matrix {
     let n = upper.nrows();
-    Matrix::from_fn(
-        n + lower.nrows(),
-        upper.ncols(),
-        |i, j| {
-            if i < n { upper[(i, j)] } else { lower[(i - n, j)] }
-        },
-    )
+    let entry = |i, j| if i < n { upper[(i, j)] } else { lower[(i - n, j)] };
+    Matrix::from_fn(n + lower.nrows(), upper.ncols(), entry)
 }
 
 /// [left, right].
