@@ -2,15 +2,15 @@
 
 use core::ops::ControlFlow;
 
-use dalembert::State;
 use dalembert::run::{LaneRuns, Stop};
 use dalembert::step::{FlowInLanes, MethodOf};
 use dalembert::system::Scalar;
+use dalembert::{Lagrangian, State};
 use multiversion::multiversion;
 use multiversion::target::match_target;
 
 use crate::member::{Failure, Record, caught};
-use crate::stepping::{NoEnd, Plan, Slot, Stepping, failed};
+use crate::stepping::{Plan, Slot, Stepping, failed};
 
 /// As many members at a time as the machine has lanes for: [`Study::in_lanes`](crate::Study::in_lanes).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,8 +100,28 @@ const fn fits<L: FlowInLanes<M, N>, M, const N: usize, const W: usize>() -> bool
     W <= L::MOST_LANES && size_of::<LaneRuns<'_, L, M, N, W>>() <= MOST_BYTES
 }
 
-/// A member on its way, or waiting for a lane.
-struct OnItsWay<'s, L: dalembert::Lagrangian<N>, V, const N: usize> {
+/// A member on its way in a lane, or waiting for one.
+pub(crate) trait InLane<'s, L: Lagrangian<N>, const N: usize> {
+    fn system(&self) -> &'s L;
+
+    fn start(&self) -> State<L::Scalar, N>;
+
+    /// Steps from its start to where it is first looked at.
+    fn first(&self) -> u64;
+
+    /// Looks at the member, which has come to `state`; how many steps on it is looked at again, if it goes
+    /// on. Breaks where all end.
+    fn look(&mut self, state: State<L::Scalar, N>, stop: Stop<'_>) -> ControlFlow<(), Option<u64>>;
+
+    /// Makes the run of a member whose lane does not tell, from its start, which has the lane's states up
+    /// to there. Records that were observed are not observed again. Breaks where all end.
+    fn alone(&mut self, stop: Stop<'_>) -> ControlFlow<()>;
+}
+
+/// A member that is observed at its records.
+struct OnItsWay<'s, 'p, L: Lagrangian<N>, M, V, O, const N: usize> {
+    by: &'p SideBySide<M, L::Scalar>,
+    observe: &'p O,
     number: u64,
     system: &'s L,
     start: State<L::Scalar, N>,
@@ -111,6 +131,51 @@ struct OnItsWay<'s, L: dalembert::Lagrangian<N>, V, const N: usize> {
     seen: u64,
     /// Steps at its next record.
     next: u64,
+}
+
+impl<'s, L, M, V, O, const N: usize> InLane<'s, L, N> for OnItsWay<'s, '_, L, M, V, O, N>
+where
+    L: FlowInLanes<M, N>,
+    M: Copy + MethodOf<L, N>,
+    O: Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
+{
+    fn system(&self) -> &'s L {
+        self.system
+    }
+
+    fn start(&self) -> State<L::Scalar, N> {
+        self.start
+    }
+
+    fn first(&self) -> u64 {
+        self.next
+    }
+
+    fn look(&mut self, state: State<L::Scalar, N>, _: Stop<'_>) -> ControlFlow<(), Option<u64>> {
+        let Plan { h, steps: all, every, .. } = self.by.plan;
+        let (number, system, steps) = (self.number, self.system, self.next);
+        let time = if steps == 0 { 0.0 } else { h.widen() * steps as f64 };
+        let record = Record { number, system, steps, time, state, event: None };
+        let observed = (self.observe)(self.value, &record);
+        self.seen += 1;
+        if observed.is_break() || steps == all {
+            return ControlFlow::Continue(None);
+        }
+        self.next = all.min(steps.saturating_add(every.unwrap_or(all).max(1)));
+        ControlFlow::Continue(Some(self.next - steps))
+    }
+
+    #[cold]
+    fn alone(&mut self, stop: Stop<'_>) -> ControlFlow<()> {
+        let mut records = 0;
+        let SideBySide { method, plan } = self.by;
+        let observe = |record: &Record<'_, L, N>| {
+            records += 1;
+            if records > self.seen { (self.observe)(self.value, record) } else { ControlFlow::Continue(()) }
+        };
+        *self.failure = failed(plan.run(*method, (self.number, self.system, &self.start), observe, stop))?;
+        ControlFlow::Continue(())
+    }
 }
 
 impl<L, M, const N: usize> Stepping<L, N> for SideBySide<M, L::Scalar>
@@ -131,7 +196,7 @@ where
             match start {
                 Ok((system, start)) => {
                     let (system, start) = (&*system, *start);
-                    Some(OnItsWay { number, system, start, value, failure, seen: 0, next })
+                    Some(OnItsWay { by: self, observe, number, system, start, value, failure, seen: 0, next })
                 }
                 Err(error) => {
                     *failure = Some(Failure { number, error: (*error).into(), last: None });
@@ -139,15 +204,7 @@ where
                 }
             }
         });
-        // Known when compiled, but for the machine, so that what never runs is not.
-        let widest = in_widest(Widest);
-        if const { width::<L, M, N>(32) == 32 } && widest >= 32 {
-            self.advance_all::<L, V, N, 32>(waiting, observe, stop)
-        } else if const { width::<L, M, N>(16) == 16 } && widest >= 16 {
-            self.advance_all::<L, V, N, 16>(waiting, observe, stop)
-        } else {
-            self.advance_all::<L, V, N, 8>(waiting, observe, stop)
-        }
+        self.advance_in_lanes(waiting, stop)
     }
 
     fn description(&self) -> String {
@@ -160,51 +217,73 @@ where
 }
 
 impl<M: Copy, S: Scalar> SideBySide<M, S> {
-    /// W members at a time. Where one of those in the lanes panics, nobody says which: each then goes alone,
-    /// and W others that wait follow.
-    fn advance_all<'s, L, V: 's, const N: usize, const W: usize>(
+    /// Members that wait for lanes, as many at a time as the machine has.
+    pub(crate) fn advance_in_lanes<'s, L, T, const N: usize>(
         &self,
-        mut waiting: impl Iterator<Item = OnItsWay<'s, L, V, N>>,
-        observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
+        waiting: impl Iterator<Item = T>,
         stop: Stop<'_>,
     ) -> ControlFlow<()>
     where
         L: FlowInLanes<M, N, Scalar = S> + 's,
         M: MethodOf<L, N>,
+        T: InLane<'s, L, N>,
+    {
+        // Known when compiled, but for the machine, so that what never runs is not.
+        let widest = in_widest(Widest);
+        if const { width::<L, M, N>(32) == 32 } && widest >= 32 {
+            self.advance_all::<L, T, N, 32>(waiting, stop)
+        } else if const { width::<L, M, N>(16) == 16 } && widest >= 16 {
+            self.advance_all::<L, T, N, 16>(waiting, stop)
+        } else {
+            self.advance_all::<L, T, N, 8>(waiting, stop)
+        }
+    }
+
+    /// W members at a time. Where one of those in the lanes panics, nobody says which: each then goes alone,
+    /// and W others that wait follow.
+    fn advance_all<'s, L, T, const N: usize, const W: usize>(
+        &self,
+        mut waiting: impl Iterator<Item = T>,
+        stop: Stop<'_>,
+    ) -> ControlFlow<()>
+    where
+        L: FlowInLanes<M, N, Scalar = S> + 's,
+        M: MethodOf<L, N>,
+        T: InLane<'s, L, N>,
     {
         loop {
-            let mut lanes: [Option<OnItsWay<'s, L, V, N>>; W] = [const { None }; W];
+            let mut lanes: [Option<T>; W] = [const { None }; W];
             lanes.iter_mut().for_each(|lane| *lane = waiting.next());
             // A panic of `observe` comes again below, where it is not caught.
-            if let Ok(done) = caught(|| self.advance_lanes(&mut lanes, &mut waiting, observe, stop)) {
+            if let Ok(done) = caught(|| self.advance_lanes(&mut lanes, &mut waiting, stop)) {
                 return done;
             }
             for member in lanes.iter_mut().flatten() {
-                *member.failure = failed(self.alone(member, observe, stop))?;
+                member.alone(stop)?;
             }
         }
     }
 
     /// The members in `lanes`; the lane of one that is done is given to the next that waits. Where none waits
     /// it runs on unseen.
-    fn advance_lanes<'s, L, V: 's, const N: usize, const W: usize>(
+    fn advance_lanes<'s, L, T, const N: usize, const W: usize>(
         &self,
-        lanes: &mut [Option<OnItsWay<'s, L, V, N>>; W],
-        waiting: &mut impl Iterator<Item = OnItsWay<'s, L, V, N>>,
-        observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
+        lanes: &mut [Option<T>; W],
+        waiting: &mut impl Iterator<Item = T>,
         stop: Stop<'_>,
     ) -> ControlFlow<()>
     where
         L: FlowInLanes<M, N, Scalar = S> + 's,
         M: MethodOf<L, N>,
+        T: InLane<'s, L, N>,
     {
         let Some(first) = &lanes[0] else { return ControlFlow::Continue(()) };
-        let (mut systems, mut starts) = ([first.system; W], [first.start; W]);
-        // Steps until the next record of each lane, where it has a member.
+        let (mut systems, mut starts) = ([first.system(); W], [first.start(); W]);
+        // Steps until the next look at each lane, where it has a member.
         let mut left = [0; W];
         for (lane, member) in lanes.iter().enumerate() {
             let Some(member) = member else { continue };
-            (systems[lane], starts[lane], left[lane]) = (member.system, member.start, member.next);
+            (systems[lane], starts[lane], left[lane]) = (member.system(), member.start(), member.first());
         }
         let mut runs = LaneRuns::new(self.method, systems, &starts, self.plan.h);
         if let Some(error) = self.plan.error {
@@ -222,14 +301,22 @@ impl<M: Copy, S: Scalar> SideBySide<M, S> {
                     continue;
                 }
                 let Some(member) = &mut lanes[lane] else { continue };
-                if let Some(steps) = self.look(&runs, lane, member, observe, stop)? {
+                let further = match runs.state(lane) {
+                    Some(state) => member.look(state, stop)?,
+                    None => {
+                        member.alone(stop)?;
+                        None
+                    }
+                };
+                if let Some(steps) = further {
                     left[lane] = steps;
                     continue;
                 }
                 lanes[lane] = waiting.next();
                 left[lane] = 0;
                 if let Some(next) = &lanes[lane] {
-                    (arriving[lane], starts[lane], left[lane]) = (Some(next.system), next.start, next.next);
+                    (arriving[lane], starts[lane], left[lane]) =
+                        (Some(next.system()), next.start(), next.first());
                 }
             }
             if arriving.iter().any(Option::is_some) {
@@ -245,57 +332,5 @@ impl<M: Copy, S: Scalar> SideBySide<M, S> {
                 left.iter_mut().for_each(|left| *left = left.saturating_sub(part));
             }
         }
-    }
-
-    /// Observes a member at a record; how many steps it is to the next, if it goes on. Breaks where all end.
-    fn look<L, V, const N: usize, const W: usize>(
-        &self,
-        runs: &LaneRuns<'_, L, M, N, W>,
-        lane: usize,
-        member: &mut OnItsWay<'_, L, V, N>,
-        observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
-        stop: Stop<'_>,
-    ) -> ControlFlow<(), Option<u64>>
-    where
-        L: FlowInLanes<M, N, Scalar = S>,
-        M: MethodOf<L, N>,
-    {
-        let Some(state) = runs.state(lane) else {
-            *member.failure = failed(self.alone(member, observe, stop))?;
-            return ControlFlow::Continue(None);
-        };
-        let Plan { h, steps: all, every, .. } = self.plan;
-        let OnItsWay { number, system, next: steps, .. } = *member;
-        let time = if steps == 0 { 0.0 } else { h.widen() * steps as f64 };
-        let record = Record { number, system, steps, time, state, event: None };
-        let observed = observe(member.value, &record);
-        member.seen += 1;
-        if observed.is_break() || steps == all {
-            return ControlFlow::Continue(None);
-        }
-        member.next = all.min(steps.saturating_add(every.unwrap_or(all).max(1)));
-        ControlFlow::Continue(Some(member.next - steps))
-    }
-
-    /// Finds what became of a member whose lane does not tell, by a run of its own, which has the
-    /// lane's states up to there. Records that were observed are not observed again.
-    #[cold]
-    fn alone<L, V, const N: usize>(
-        &self,
-        member: &mut OnItsWay<'_, L, V, N>,
-        observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
-        stop: Stop<'_>,
-    ) -> Result<(), NoEnd<S, N>>
-    where
-        L: FlowInLanes<M, N, Scalar = S>,
-        M: MethodOf<L, N>,
-    {
-        let mut records = 0;
-        let of = (member.number, member.system, &member.start);
-        let observe = |record: &Record<'_, L, N>| {
-            records += 1;
-            if records > member.seen { observe(member.value, record) } else { ControlFlow::Continue(()) }
-        };
-        self.plan.run(self.method, of, observe, stop)
     }
 }

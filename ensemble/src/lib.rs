@@ -51,7 +51,8 @@
 //! instructions of the machine, chosen when the program runs. Products and sums are rounded as they are
 //! alone: that changes no bit either. The lane of a member that is done is given to the next.
 //!
-//! **Events.** The run of each member may be watched for events, and ended by them: [`watch`](Study::watch).
+//! **Events.** The run of each member may be watched for events, and ended by them, one by one or in lanes:
+//! [`watch`](Study::watch).
 //!
 //! **Inputs and time.** A view is a member as well, in lanes too; each member has an input and a time of its
 //! own:
@@ -125,4 +126,4 @@ pub use member::{End, Failure, MemberError, Record};
 pub use progress::{Cancelled, Progress};
 pub use stepping::{OneByOne, Plan, Slot, Stepping, ToError, one_by_one};
 pub use study::{Ends, Ensemble, Outcome, Study};
-pub use watched::Watched;
+pub use watched::{OfOneSize, Watched};

@@ -33,7 +33,7 @@ pub use discretise::Discretise;
 pub use driven::DrivenTrajectory;
 pub(crate) use driven::TakenUntil;
 pub use held_input::{Carried, HeldInput, InPeriod, Period, Sensitivities};
-pub use lanes::ExplicitInLanes;
+pub use lanes::{ExplicitInLanes, ToldRun};
 pub use memory::{DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, VelocityHistory};
 pub use sample::{Run, Sample, Samples};
 pub use splitting::{CompensatedSums, PlainSums, Splitting, Sums};

@@ -6,6 +6,7 @@
 
 mod explicit;
 mod midpoint;
+mod told;
 
 use nalgebra::SVector;
 
@@ -14,6 +15,7 @@ use crate::rules::steps_until;
 use crate::run::{Checkpoint, Course, Explicit};
 use crate::step::{FlowInLanes, LaneRuns, State};
 use crate::system::{Gathered, Lagrangian};
+pub use told::ToldRun;
 
 /// An explicit system whose force is known of several members at once: what `lanes = explicit` generates.
 #[diagnostic::on_unimplemented(
