@@ -68,7 +68,8 @@ fn view_stub(source: &Source) -> Option<TokenStream> {
         |parameter: &FnArg| matches!(parameter, FnArg::Typed(typed) if matches!(&*typed.ty, Type::Array(_)));
     let of_force = after("force", 2).unwrap_or_default();
     let is_driven = of_force.iter().any(is_array);
-    let others = [after("constraints", 1), after("velocity_constraints", 2), after("events", 2)];
+    let others = [("constraints", 1), ("velocity_constraints", 2), ("events", 2), ("outputs", 2)]
+        .map(|(name, count)| after(name, count));
     let is_timed = [after("lagrangian", 2), after("rayleigh", 1), Some(of_force)]
         .iter()
         .chain(&others)
