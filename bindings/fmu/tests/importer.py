@@ -515,7 +515,7 @@ for version, like in [(3, unit), (2, unit_of_two)]:
     by_hand = np.column_stack([q[:, 2] + LENGTH, 0.8 * result["v[0]"], np.full(len(q), (GRAVITY / LENGTH) ** 0.5)])
     of_block = np.column_stack([result[name] for name in ["height", "power", "frequency"]])
     holds(lambda: close(of_block, by_hand, 1e-15), "outputs of state and input, at the nearest state to begin with")
-    check(abs(of_block[0] - [0.14, 0.4, 3.743566625]).max() < 1e-9, "the first of them in numbers")
+    check(abs(of_block[0, :2] - [0.14, 0.4]).max() < 1e-15, "the first of them in numbers")
     fails(lambda: close(of_block, by_hand * [1.0, 0.8001 / 0.8, 1.0], 1e-5), "the input is seen in the outputs")
 
 description_on_constraints = fmpy.read_model_description(descriptions / "constrained3.fmu")

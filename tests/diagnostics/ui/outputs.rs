@@ -1,7 +1,7 @@
 //! Outputs whose signatures are others, and that are asked for and not there.
 
-use dalembert::system::OutputFunctions;
 use dalembert::rayleigh_system;
+use dalembert::system::OutputFunctions;
 
 struct OneNumber;
 
@@ -82,6 +82,5 @@ impl WithoutOutputs {
 }
 
 fn main() {
-    let _: [f64; 1] = WithoutOutputs.outputs(&[0.0].into(), &[0.0].into());
-    let _: [f64; 1] = OutputFunctions::outputs(&WithoutOutputs, &[0.0].into(), &[0.0].into());
+    let _: [f64; 1] = OutputFunctions::<1, 1>::outputs(&WithoutOutputs, &[0.0].into(), &[0.0].into());
 }
