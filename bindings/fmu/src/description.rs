@@ -23,7 +23,7 @@ impl<I: Interface<N>, const N: usize> Unit<I, N> {
     /// modelDescription.xml of FMI 3.0.
     ///
     /// # Panics
-    /// With a [`NamingError`](crate::NamingError), where the documentation tells of a variable what cannot be.
+    /// With a [`NamingError`](crate::NamingError), where a line of the documentation cannot be followed.
     #[must_use]
     pub fn description(&self) -> String {
         self.description_fmi3().unwrap_or_else(|error| panic!("{error}"))

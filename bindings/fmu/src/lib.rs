@@ -14,7 +14,7 @@
 //! | `q[0]` …, `v[0]` … | configuration and velocity: outputs, with the start values of the run |
 //! | `p[0]` …, `energy` | momenta and energy: outputs |
 //! | `lambda[0]` … | of a system with constraints: reactions over the last step, outputs |
-//! | `y[0]` … | of a block with `fn outputs`: its values at the state, input and time of the communication point |
+//! | `y[0]` … | of a block with `fn outputs`: its values at the communication point, outputs |
 //!
 //! A parameter that changes between steps leaves (q, p), so that momenta are continuous.
 //!
@@ -38,12 +38,13 @@
 //! /// - `u[0]`: force on the cart. Unit: N
 //! ```
 //!
-//! Packing refuses lines that name a variable that there is not, or two alike: [`NamingError`].
+//! Packing refuses lines about a variable that there is not, and names that are none: [`NamingError`].
 //!
 //! A call that fails changes nothing and says why to the importer's log. A communication step that is not
 //! positive is `fmi3Discard`; a step that cannot be solved is `fmi3Error` with the text of its
 //! [`StepError`](dalembert::StepError), and leaves the unit where the communication step began. In FMI 2.0
-//! both are `fmi2Error`. So is in both an output that is NaN or infinite. A panic in the block is `fmi3Fatal`.
+//! both are `fmi2Error`. An output that is NaN or infinite is an error of the call that asks for it. A panic
+//! in the block is `fmi3Fatal`.
 
 #[doc(hidden)]
 pub use dalembert;

@@ -27,7 +27,7 @@ pub enum Place {
     Energy,
     /// λ of a constraint.
     Multiplier(usize),
-    /// What `fn outputs` returns.
+    /// Number of those that `fn outputs` returns.
     Output(usize),
 }
 

@@ -17,7 +17,7 @@ pub enum NamingError {
         /// The line.
         line: &'static str,
     },
-    /// What stands before the colon is no name of FMI.
+    /// The name before the colon is none of FMI.
     NoName {
         /// The line.
         line: &'static str,

@@ -1,5 +1,5 @@
-//! Names, descriptions and units of u, q, v, p and y, as lines of documentation have them, of the struct or of
-//! `fn outputs`.
+//! Names, descriptions and units of u, q, v, p and y, as lines of the documentation have them, that of the
+//! struct or of `fn outputs`.
 //!
 //! ```text
 //! /// - `q[0]` position: of the cart on the rail. Unit: m
@@ -78,7 +78,8 @@ fn per_second(unit: &str) -> String {
     if unit == "1" { "1/s".into() } else { format!("{unit}/s") }
 }
 
-/// Whether the lines tell what can be: `symbols` are the names of all variables without them, `names` with them.
+/// Whether the lines can be followed: `symbols` are the names of all variables without them, `names` with
+/// them.
 pub fn check(documentation: &[&'static str], symbols: &[&str], names: &[&str]) -> Result<(), NamingError> {
     let lines = documentation.iter().copied().filter(|line| is_told(line));
     let all: Vec<_> = lines.filter_map(|line| Some((line.trim(), told(line)?))).collect();
