@@ -156,19 +156,19 @@ mod wrong {
     use super::*;
 
     macro_rules! unit {
-        ($name:ident, [$($line:literal),+], $outputs:literal) => {
+        ($name:ident { $field:ident }, [$($line:literal),+], $outputs:literal) => {
             dalembert_fmu::parameters! {
                 /// A load.
                 pub struct $name {
                     /// Mass.
-                    pub mass: f64,
+                    pub $field: f64,
                 }
             }
 
             #[rayleigh_system]
             impl $name {
                 fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
-                    0.5 * self.mass * v[0] * v[0] - q[0]
+                    0.5 * self.$field * v[0] * v[0] - q[0]
                 }
 
                 $(#[doc = $line])+
@@ -180,19 +180,20 @@ mod wrong {
             impl $name {
                 pub fn packed() -> Result<String, NamingError> {
                     let unit: Unit<By<Self, Midpoint>, 1> =
-                        Unit::new(["load", "Midpoint"], "load", 0.1, Self { mass: 1.0 }, [[0.0], [0.0]]);
+                        Unit::new(["load", "Midpoint"], "load", 0.1, Self { $field: 1.0 }, [[0.0], [0.0]]);
                     unit.description_fmi2().map_err(|error| *error.into_inner().unwrap().downcast().unwrap())
                 }
             }
         };
     }
 
-    unit!(Right, ["- `y[0]` load: over the floor", "- `y[1]` again: the same"], 2);
-    unit!(Block, ["\n - `y[0]` load: over the floor\n - `y[1]` again: the same\n"], 2);
-    unit!(TooMany, ["- `y[0]` load: over the floor", "- `y[1]` again: the same"], 1);
-    unit!(Twice, ["- `y[0]` load: over the floor", "- `y[0]` again: the same"], 2);
-    unit!(Unnamed, ["- `y[0]` 2nd load: over the floor"], 1);
-    unit!(Taken, ["- `y[0]` mass: of the load"], 1);
+    unit!(Right { mass }, ["- `y[0]` load: over the floor", "- `y[1]` again: the same"], 2);
+    unit!(Block { mass }, ["\n - `y[0]` load: over the floor\n - `y[1]` again: the same\n"], 2);
+    unit!(TooMany { mass }, ["- `y[0]` load: over the floor", "- `y[1]` again: the same"], 1);
+    unit!(Twice { mass }, ["- `y[0]` load: over the floor", "- `y[0]` again: the same"], 2);
+    unit!(Unnamed { mass }, ["- `y[0]` 2nd load: over the floor"], 1);
+    unit!(OfField { y }, ["- `y[0]` load: over the floor"], 1);
+    unit!(Taken { mass }, ["- `y[0]` mass: of the load"], 1);
 }
 
 #[test]
@@ -208,6 +209,9 @@ fn names_that_cannot_be_are_typed_errors() -> Result<(), Box<dyn Error>> {
     let line = "- `y[0]` mass: of the load";
     let error = NamingError::NameTwice { line };
     assert_eq!(wrong::Taken::packed(), Err(error));
+    let of_field = std::panic::catch_unwind(wrong::OfField::packed);
+    let said = *of_field.unwrap_err().downcast::<&str>().unwrap();
+    assert!(said.contains("the outputs, y"), "in `fmu!` an error of the compiler: {said}");
     assert!(error.to_string().contains(line) && format!("{error:?}") == error.to_string());
     Ok(())
 }
