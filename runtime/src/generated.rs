@@ -29,9 +29,10 @@ pub use crate::system::{
     ActingForce, Constrained, ConstrainedParameters, ConstraintsBy, CyclicCoordinate, Damping, Driven,
     DryFriction, DryFrictionParameters, Engine, EventFunctions, Force, ForcedLagrangian,
     ForcedLagrangianInLanes, Function, Gathered, GeneratedDiffers, GradientBy, Input, Lagrangian,
-    NewtonStructure, NoDerivative, Normals, OfSlice, Operation, Parameters, Place, Plain, PlainFields,
-    Quantity, Rayleigh, Refusal, ScalarField, SecondOrder, SliceMethods, Slips, SlipsBy, SmoothRayleigh,
-    Stages, Structure, TimeScale, VectorField, Violation, Written, first_rows, last_rows, normals, violation,
+    NewtonStructure, NoDerivative, Normals, OfSlice, Operation, OutputFunctions, Parameters, Place, Plain,
+    PlainFields, Quantity, Rayleigh, Refusal, ScalarField, SecondOrder, SliceMethods, Slips, SlipsBy,
+    SmoothRayleigh, Stages, Structure, TimeScale, VectorField, Violation, Written, first_rows, last_rows,
+    normals, violation,
 };
 
 /// Implements [`Described`](crate::system::Described), and makes a macro of the system's name, which hands
@@ -43,7 +44,7 @@ macro_rules! described {
     (
         $system:ident $([$view:ident $function:ident])?: $scalar:ident, $n:expr
         $(, input $u:ident $inputs:expr)? $(, time $time:ident)? $(, constraints $constraints:expr)?
-        $(, events $events:expr)?
+        $(, events $events:expr)? $(, outputs $outputs:expr, [$($told:expr),*])?
         $(, parameters [$($parameter:literal),+])?;
         $words:ident $dollar:tt
     ) => {
@@ -54,12 +55,15 @@ macro_rules! described {
             type Parameters = $crate::generated::described!(@or () $(; [&'static str; [$($parameter),+].len()])?);
             type Multipliers = $crate::generated::described!(@or () $(; [$scalar; $constraints])?);
             type Events = $crate::generated::described!(@or () $(; [$scalar; $events])?);
+            type Outputs = $crate::generated::described!(@or () $(; [$scalar; $outputs])?);
             type View<'a> = $crate::generated::described!(@or Self $(; $view<'a>)?);
 
             const INPUTS: usize = 0 $(+ $inputs)?;
             const TAKES_TIME: bool = [$(stringify!($time),)? ""].len() == 2;
             const CONSTRAINTS: usize = 0 $(+ $constraints)?;
             const EVENTS: usize = 0 $(+ $events)?;
+            const OUTPUTS: usize = 0 $(+ $outputs)?;
+            const OUTPUTS_TOLD: &'static [&'static str] = &[$($($told),*)?];
             const PARAMETERS: &'static [&'static str] = &[$($($parameter),+)?];
 
             #[inline]

@@ -106,14 +106,15 @@ mod attributes {
 /// | `fn constraints(&self, q: [f64; N]) -> [f64; M]` | holonomic constraints g(q) = 0, if there are any: [below](#constraints) |
 /// | `fn velocity_constraints(&self, q, v: [f64; N]) -> [f64; M]` | constraints linear in v, as in rolling |
 /// | `fn events(&self, q, v: [f64; N]) -> [f64; K]` | [event functions](system::EventFunctions) |
+/// | `fn outputs(&self, q, v: [f64; N]) -> [f64; K]` | [outputs](system::OutputFunctions); `u` may follow |
 /// | `fn time_scale(&self, q: [f64; N]) -> f64` | σ > 0, if steps are to follow the motion: [`in_scaled_time`](Trajectory::in_scaled_time) |
 /// | any other | a helper: differentiated if one of these calls it, untouched otherwise |
 ///
 /// `f32` in place of `f64` makes a system in single precision.
 ///
-/// L, R, the force, constraints and event functions may take a time `t: f64` after their other parameters.
-/// Arguments go by their place, whatever they are called: q, v, u, t. Any of these names at the place of
-/// another is an error, and so is a number after v that is not called `t` or `time`.
+/// L, R, the force, constraints, event functions and outputs may take a time `t: f64` after their other
+/// parameters. Arguments go by their place, whatever they are called: q, v, u, t. Any of these names at the
+/// place of another is an error, and so is a number after v that is not called `t` or `time`.
 ///
 /// # Inputs and time
 ///

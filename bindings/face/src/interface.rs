@@ -11,7 +11,7 @@ use dalembert::{State, StepError};
 use crate::columns::{ByInput, ByParameters, Column};
 use crate::constraints::{Holding, Multipliers, Reacting, StepMade};
 use crate::mass::require_no_negative;
-use crate::{FieldType, Fields};
+use crate::{FieldType, Fields, Outputs};
 
 /// The type of u: numbers, or `()` where a system takes none.
 pub trait Input<S>: Copy {
@@ -86,6 +86,13 @@ pub trait Interface<const N: usize>: Sized + 'static {
         made: &StepMade<Self::Scalar, N>,
     ) -> Result<impl AsRef<[Self::Scalar]>, StepError>;
 
+    /// The outputs at (q, v).
+    fn outputs(
+        system: &Self::View<'_>,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> impl AsRef<[Self::Scalar]>;
+
     /// The derivatives of a step by each entry of u.
     ///
     /// # Errors
@@ -114,6 +121,7 @@ where
     S::Input: Input<S::Scalar> + for<'a> ByInput<S::View<'a>, R, N>,
     S::Parameters: for<'a> ByParameters<S::View<'a>, R, N>,
     S::Multipliers: for<'a> Reacting<S::View<'a>, R, N>,
+    S::Outputs: for<'a> Outputs<S::View<'a>, N>,
     for<'a> S::View<'a>: Linearizable<R, N> + Flow<R, N, RunMemory = K>,
     K: for<'a> Memory<S::View<'a>, R, N> + Clone + 'static,
     R: 'static,
@@ -140,6 +148,14 @@ where
         made: &StepMade<S::Scalar, N>,
     ) -> Result<impl AsRef<[S::Scalar]>, StepError> {
         S::Multipliers::reactions(system, made)
+    }
+
+    fn outputs(
+        system: &S::View<'_>,
+        q: &SVector<S::Scalar, N>,
+        v: &SVector<S::Scalar, N>,
+    ) -> impl AsRef<[S::Scalar]> {
+        S::Outputs::values(system, q, v)
     }
 
     fn by_input(

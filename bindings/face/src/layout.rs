@@ -16,7 +16,8 @@ where
     let words = [name, rule, <S::Scalar as FieldType>::BASE];
     let sizes = [N, S::INPUTS, S::PARAMETERS.len(), S::TAKES_TIME as usize, size_of::<S>()];
     let hash = hashed(S::FIELDS, &words, &sizes);
-    if S::CONSTRAINTS > 0 { with_number(hash, S::CONSTRAINTS) } else { hash }
+    let hash = if S::CONSTRAINTS > 0 { with_number(hash, S::CONSTRAINTS) } else { hash };
+    if S::OUTPUTS > 0 { with_number(with_text(hash, "outputs"), S::OUTPUTS) } else { hash }
 }
 
 const fn hashed(fields: &[Field], words: &[&str], sizes: &[usize]) -> u64 {

@@ -11,17 +11,17 @@ pub use dalembert::system::Described;
 
 mod columns;
 mod constraints;
-mod events;
 mod fields;
 mod interface;
 mod layout;
 mod mass;
 mod number;
+mod of_block;
 
 pub use columns::{ByInput, ByParameters, Column, by_state};
 pub use constraints::{Holding, Multipliers, Reacting, StepMade};
-pub use events::Events;
 pub use fields::{Field, FieldType, Fields};
 pub use interface::{By, Input, Interface, coordinates, start};
 pub use layout::layout;
 pub use number::Number;
+pub use of_block::{Events, Outputs};

@@ -34,6 +34,13 @@ impl Spherical {
     fn constraints(&self, q: [f64; 3]) -> [f64; 1] {
         [(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]).sqrt() - self.l]
     }
+
+    /// - `y[0]` height: over the lowest point. Unit: m
+    /// - `y[1]` power: of the push. Unit: W
+    /// - `y[2]` frequency: of small swings. Unit: rad/s
+    fn outputs(&self, q: [f64; 3], v: [f64; 3], u: [f64; 1]) -> [f64; 3] {
+        [q[2] + self.l, u[0] * v[0], (9.81 / self.l).sqrt()]
+    }
 }
 
 dalembert_fmu::fmu! {

@@ -1,6 +1,7 @@
 //! One instance: its variables, its run, and what is allowed when.
 
 mod derivatives;
+mod outputs;
 mod reactions;
 mod saved;
 
@@ -213,7 +214,7 @@ impl<I: Interface<N>, const N: usize> CoSimulation<I, N> {
             Place::Input(i) => self.input[i] = scalar,
             Place::Configuration(i) => self.start[0][i] = scalar,
             Place::Velocity(i) => self.start[1][i] = scalar,
-            Place::Time | Place::Momentum(_) | Place::Energy | Place::Multiplier(_) => {}
+            Place::Time | Place::Momentum(_) | Place::Energy | Place::Multiplier(_) | Place::Output(_) => {}
         }
         Ok(())
     }
@@ -229,7 +230,7 @@ impl<I: Interface<N>, const N: usize> Model for CoSimulation<I, N> {
     }
 
     fn values(&self, references: &[u32]) -> Result<Vec<Number>, Refusal> {
-        let (mut motion, mut multipliers) = (None, None);
+        let (mut motion, mut multipliers, mut outputs) = (None, None, None);
         let mut values = Vec::with_capacity(references.len());
         for &reference in references {
             let variable = self.variable(reference)?;
@@ -257,6 +258,10 @@ impl<I: Interface<N>, const N: usize> Model for CoSimulation<I, N> {
                         Place::Configuration(i) => state.q[i],
                         Place::Velocity(i) => v[i],
                         Place::Momentum(i) => state.p[i],
+                        Place::Output(i) => {
+                            let all = outputs.get_or_insert_with(|| self.outputs(&state.q, &v));
+                            self.output(variable, all[i])?
+                        }
                         _ => self.undriven().energy(&state.q, &v),
                     })
                 }

@@ -23,10 +23,10 @@ impl<I: Interface<N>, const N: usize> Unit<I, N> {
     /// modelDescription.xml of FMI 3.0.
     ///
     /// # Panics
-    /// Where the documentation gives two variables one name.
+    /// With a [`NamingError`](crate::NamingError), where a line of the documentation cannot be followed.
     #[must_use]
     pub fn description(&self) -> String {
-        self.description_fmi3().expect("FMI 3.0 has a type for every field")
+        self.description_fmi3().unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// modelDescription.xml of FMI 3.0, where no name is given twice.
@@ -59,13 +59,8 @@ struct Version {
 
 fn document<I: Interface<N>, const N: usize>(unit: &Unit<I, N>, version: &Version) -> io::Result<String> {
     let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
-    let variables = variables::of(unit);
-    if let Some(name) = variables::name_twice(&variables) {
-        let text = format!(
-            "two variables of the unit have the name {name}: change it in the documentation of the struct"
-        );
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, text));
-    }
+    let variables =
+        variables::named(unit).map_err(|error| io::Error::new(io::ErrorKind::InvalidInput, error))?;
     let (description, token) = (described(I::System::DOCUMENTATION), unit.token());
     let root = writer
         .create_element("fmiModelDescription")

@@ -14,6 +14,7 @@
 //! | `q[0]` …, `v[0]` … | configuration and velocity: outputs, with the start values of the run |
 //! | `p[0]` …, `energy` | momenta and energy: outputs |
 //! | `lambda[0]` … | of a system with constraints: reactions over the last step, outputs |
+//! | `y[0]` … | of a block with `fn outputs`: its values at the communication point, outputs |
 //!
 //! A parameter that changes between steps leaves (q, p), so that momenta are continuous.
 //!
@@ -29,18 +30,21 @@
 //! `v` and `energy`. In initialization mode they are those of `p` and `energy` by `q` and `v`, unless
 //! constraints hold these.
 //!
-//! A line of the struct's documentation names `u[0]`, `q[0]`, `v[0]` or `p[0]`, describes it and gives its
-//! unit, each if it likes:
+//! A line of the documentation of the struct, or of `fn outputs`, names `u[0]`, `q[0]`, `v[0]`, `p[0]` or
+//! `y[0]`, describes it and gives its unit, each if it likes:
 //!
 //! ```text
 //! /// - `q[0]` position: of the cart on the rail. Unit: m
 //! /// - `u[0]`: force on the cart. Unit: N
 //! ```
 //!
+//! Packing refuses lines about a variable that there is not, and names that are none: [`NamingError`].
+//!
 //! A call that fails changes nothing and says why to the importer's log. A communication step that is not
 //! positive is `fmi3Discard`; a step that cannot be solved is `fmi3Error` with the text of its
 //! [`StepError`](dalembert::StepError), and leaves the unit where the communication step began. In FMI 2.0
-//! both are `fmi2Error`. A panic in L, R or f is `fmi3Fatal`.
+//! both are `fmi2Error`. An output that is NaN or infinite is an error of the call that asks for it. A panic
+//! in the block is `fmi3Fatal`.
 
 #[doc(hidden)]
 pub use dalembert;
@@ -59,6 +63,7 @@ mod unit;
 mod variables;
 
 pub use unit::Unit;
+pub use variables::NamingError;
 
 /// Writes the functions of FMI for a system, and `UNIT`, which packs it.
 ///

@@ -16,8 +16,8 @@ impl<I: Interface<N>, const N: usize> Unit<I, N> {
     /// program.
     ///
     /// # Errors
-    /// Where the library is not there, `file` cannot be written, or the documentation gives two variables one
-    /// name; the message names which.
+    /// Where the library is not there or `file` cannot be written; a [`NamingError`](crate::NamingError)
+    /// within, where a line of the documentation cannot be followed.
     pub fn pack(&self, file: impl AsRef<Path>) -> io::Result<()> {
         let system = if OS == "macos" { "darwin" } else { OS };
         self.write(file.as_ref(), &self.description_fmi3()?, &format!("{ARCH}-{system}"))

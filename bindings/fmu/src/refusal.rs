@@ -25,6 +25,8 @@ pub enum Refusal {
     NotSettable { name: String, mode: Mode },
     /// NaN, or infinity where that is no value.
     NotFinite { name: String },
+    /// An output is NaN or infinite.
+    Output { name: String, value: f64, time: f64 },
     /// Arrays of different lengths.
     Lengths { asked: usize, given: usize },
     /// An address is NULL or misaligned.
@@ -84,6 +86,11 @@ impl fmt::Display for Refusal {
             Self::AnotherType { name, kind } => write!(f, "{name} is of the type {kind}"),
             Self::NotSettable { name, mode } => write!(f, "{name} cannot be set while the unit is {mode}"),
             Self::NotFinite { name } => write!(f, "{name} was given a value that is no finite number"),
+            Self::Output { name, value, time } => write!(
+                f,
+                "at time {time}: the output {name} is {value}, no finite number: `fn outputs` has no value at this state and \
+                 input"
+            ),
             Self::Lengths { asked, given } => {
                 write!(f, "{asked} numbers belong there, and {given} are given")
             }

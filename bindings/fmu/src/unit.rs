@@ -16,8 +16,8 @@ pub struct Unit<I: Interface<N>, const N: usize> {
     pub(crate) start: [[I::Scalar; N]; 2],
 }
 
-/// The names that are not left for fields; the last one where there are constraints.
-const TAKEN: [&str; 8] = ["time", "step_size", "u", "q", "v", "p", "energy", "lambda"];
+/// The names that are not left for fields.
+const TAKEN: [&str; 7] = ["time", "step_size", "u", "q", "v", "p", "energy"];
 
 impl<I: Interface<N>, const N: usize> Unit<I, N> {
     /// The unit of a system in the library of this name. It does not compile where a field has the name of
@@ -31,18 +31,20 @@ impl<I: Interface<N>, const N: usize> Unit<I, N> {
         start: [[I::Scalar; N]; 2],
     ) -> Self {
         let fields: &[Field] = I::System::FIELDS;
-        let taken = if I::System::CONSTRAINTS > 0 { TAKEN.len() } else { TAKEN.len() - 1 };
         let mut i = 0;
         while i < fields.len() {
             let mut j = 0;
-            while j < taken {
+            while j < TAKEN.len() {
                 assert!(
                     !equal(fields[i].name, TAKEN[j]),
-                    "a field has the name of another variable of the unit: time, step_size, u, q, v, p, energy, or \
-                     lambda where there are constraints"
+                    "a field has the name of another variable of the unit: time, step_size, u, q, v, p or energy"
                 );
                 j += 1;
             }
+            let of_constraints = I::System::CONSTRAINTS > 0 && equal(fields[i].name, "lambda");
+            assert!(!of_constraints, "a field has the name of the reactions of constraints, lambda");
+            let of_outputs = I::System::OUTPUTS > 0 && equal(fields[i].name, "y");
+            assert!(!of_outputs, "a field has the name of the outputs, y");
             i += 1;
         }
         let layout = layout::<I::System, N>(name, rule);

@@ -1,11 +1,13 @@
 //! The variables of a unit; a value reference is a place among them.
 
+mod naming;
 mod told;
 
 use dalembert::system::Scalar;
 use dalembert_face::{Described, Field, Fields, Interface, Number};
 
 use crate::Unit;
+pub use naming::NamingError;
 pub use told::is_told;
 
 /// The quantity that a variable is a number of.
@@ -25,6 +27,8 @@ pub enum Place {
     Energy,
     /// λ of a constraint.
     Multiplier(usize),
+    /// Number of those that `fn outputs` returns.
+    Output(usize),
 }
 
 /// The role of a variable: whether the importer may set it, and when.
@@ -96,6 +100,29 @@ pub fn number<S: Scalar>(value: S) -> Number {
 
 /// All variables of a unit, in the order of their value references.
 pub fn of<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> Vec<Variable> {
+    let mut all = untold(unit);
+    told::tell(&documentation::<I, N>(), &mut all);
+    all
+}
+
+/// As [`of`], where the documentation tells what can be.
+pub fn named<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> Result<Vec<Variable>, NamingError> {
+    fn names(all: &[Variable]) -> Vec<&str> {
+        all.iter().map(|variable| variable.name.as_str()).collect()
+    }
+    let (symbols, all) = (untold(unit), of(unit));
+    told::check(&documentation::<I, N>(), &names(&symbols), &names(&all))?;
+    Ok(all)
+}
+
+/// The lines that may tell of variables.
+fn documentation<I: Interface<N>, const N: usize>() -> Vec<&'static str> {
+    let texts = I::System::DOCUMENTATION.iter().chain(I::System::OUTPUTS_TOLD);
+    texts.flat_map(|text| text.lines()).collect()
+}
+
+/// All variables, without what the documentation tells of them.
+fn untold<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> Vec<Variable> {
     let zero = number(I::Scalar::constant(0.0));
     let mut all = vec![
         Variable::new("time", "Time", Place::Time, Role::Independent, Number::F64(0.0)),
@@ -129,15 +156,10 @@ pub fn of<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> Vec<Variable> {
         );
         all.push(Variable::new(name, &of, place, Role::Calculated, zero));
     }
-    told::tell(I::System::DOCUMENTATION, &mut all);
+    for i in 0..I::System::OUTPUTS {
+        all.push(Variable::new(format!("y[{i}]"), "Output", Place::Output(i), Role::Calculated, zero));
+    }
     all
-}
-
-/// A name that two variables have.
-pub fn name_twice(all: &[Variable]) -> Option<&str> {
-    let mut names: Vec<_> = all.iter().map(|variable| variable.name.as_str()).collect();
-    names.sort_unstable();
-    names.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| pair[0])
 }
 
 fn step_size<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> Variable {
@@ -175,21 +197,4 @@ fn parameters<'a, I: Interface<N>, const N: usize>(
         variable.unit = units.get(index).or(units.last()).cloned();
         variable
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use dalembert_face::Number;
-
-    use super::{Place, Role, Variable, name_twice, told};
-
-    #[test]
-    fn a_name_given_twice_is_found() {
-        let input = |i| Variable::new(format!("u[{i}]"), "", Place::Input(i), Role::Input, Number::F64(0.0));
-        let mut inputs = [input(0), input(1)];
-        told::tell(&["- `u[0]` force: on the cart. Unit: N"], &mut inputs);
-        assert_eq!((inputs[0].name.as_str(), name_twice(&inputs)), ("force", None));
-        told::tell(&["- `u[1]` force: on the rod"], &mut inputs);
-        assert_eq!(name_twice(&inputs), Some("force"));
-    }
 }

@@ -71,11 +71,13 @@ parameters = ["cart", "rod", "half_length", "friction[0]", "friction[1]"]
 motion = ["q[0]", "q[1]", "v[0]", "v[1]", "p[0]", "p[1]", "energy"]
 
 check(validate_fmu(str(unit)) == [], f"validates: {validate_fmu(str(unit))}")
-check(names == ["time", "step_size", *parameters, "u[0]", *motion], f"the variables: {names}")
+check(names == ["time", "step_size", *parameters, "u[0]", *motion, "tip", "height"], f"the variables: {names}")
 check([of[name].unit for name in parameters] == ["kg", "kg", "m", "N.s/m", "N.m.s"], "units from the documentation")
 check([of[name].unit for name in ["u[0]", "q[0]", "q[1]", "v[0]", "v[1]", "p[0]"]] == ["N", "m", "rad", "m/s", "rad/s", "N.s"], "units")
 check(of["q[1]"].description == "angle of the rod from upright." and of["p[1]"].unit is None, "what the documentation tells")
 check(description.description == "A rod hinged to a cart on a rail.", f"the rest of it: {description.description}")
+check([of[name].unit for name in ["tip", "height"]] == ["m", "m"] and of["tip"].causality == "output", "outputs")
+check(of["height"].description == "of the rod's end over the hinge.", "an output from the documentation of its function")
 check(of["rod"].description == "Mass of the rod.", "descriptions from the documentation")
 check(of["u[0]"].causality == "input" and of["energy"].causality == "output", "inputs and outputs")
 
@@ -104,6 +106,21 @@ holds(lambda: same(columns(result), runs["stated"][:, 1:]), "a simulation is the
 off = runs["stated"][:, 1:].copy()
 off[-1, 3] = np.nextafter(off[-1, 3], 1e9)
 fails(lambda: same(columns(result), off), "a last place is seen")
+
+# Outputs of the block, from the motion by hand; of the same names in FMI 2.0, below.
+def tip(result, half_length=0.25):
+    x, angle = result["q[0]"], result["q[1]"]
+    return np.column_stack([x + 2 * half_length * np.sin(angle), 2 * half_length * np.cos(angle)])
+
+
+def outputs(result):
+    return np.column_stack([result[name] for name in ["tip", "height"]])
+
+
+result = fmpy.simulate_fmu(str(unit), stop_time=3.0, output=[*motion, "tip", "height"])
+holds(lambda: close(outputs(result), tip(result), 1e-15), "outputs are those of the motion, at the start too")
+fails(lambda: close(outputs(result), tip(result, half_length=0.2501), 1e-5), "a length is seen in the outputs")
+fails(lambda: close(outputs(result)[1:], tip(result)[:-1], 1e-5), "the time is seen in the outputs")
 
 # Other parameters, another start, another step size, and an input at each communication point.
 start = {"cart": 2.5, "friction[1]": 0.05, "step_size": 0.005, "q[0]": 0.3, "q[1]": -2.0, "v[0]": 0.1, "v[1]": 4.0}
@@ -198,6 +215,7 @@ one.setDebugLogging(True, [])
 refused(lambda: put(one, "q[0]", 1.0), fmi3Error, "q[0]", "step mode")
 refused(lambda: put(one, "step_size", 0.1), fmi3Error, "step_size")
 refused(lambda: put(one, "energy", 1.0), fmi3Error, "energy")
+refused(lambda: put(one, "tip", 1.0), fmi3Error, "tip")
 refused(lambda: put(one, "u[0]", float("inf")), fmi3Error, "u[0]", "finite")
 refused(lambda: put(one, "rod", float("nan")), fmi3Error, "rod")
 refused(lambda: one.setFloat64([99], [1.0]), fmi3Error, "99")
@@ -334,6 +352,7 @@ holds(
 holds(lambda: same(get(linearized, *ends), end), "derivatives change nothing")
 refused(lambda: along(["v[0]"], ["rod"], [1.0]), fmi3Error, "v[0]", "rod")
 refused(lambda: along(["q[0]"], ["half_length"], [1.0]), fmi3Error, "half_length")
+refused(lambda: along(["tip"], ["q[0]"], [1.0]), fmi3Error, "tip", "no derivative")
 refused(lambda: instance().getDirectionalDerivative([vr["q[0]"]], [vr["u[0]"]], [1.0]), fmi3Error, "communication step")
 
 
@@ -395,6 +414,8 @@ check([variable.unit for variable in in_two.modelVariables] == [of[name].unit fo
 result = fmpy.simulate_fmu(str(unit_of_two), stop_time=3.0, output=motion)
 holds(lambda: same(columns(result), runs["stated"][:, 1:]), "FMI 2.0: the run in Rust")
 fails(lambda: same(columns(result), off), "FMI 2.0: a last place is seen")
+result = fmpy.simulate_fmu(str(unit_of_two), stop_time=3.0, output=[*motion, "tip", "height"])
+holds(lambda: close(outputs(result), tip(result), 1e-15), "FMI 2.0: outputs are those of the motion")
 result = fmpy.simulate_fmu(str(unit_of_two), start_values=start, input=signal, **other)
 holds(lambda: same(columns(result), runs["other"][:, 1:]), "FMI 2.0: parameters, start, step size and input arrive")
 result = fmpy.simulate_fmu(str(unit_of_two), start_values=start, **other)
@@ -479,7 +500,7 @@ def tension(rows, u, with_motion=1.0):
 
 for version, like in [(3, unit), (2, unit_of_two)]:
     held = packed(version, like)
-    asked = {"output": [*places, "energy", "lambda[0]"], "output_interval": 0.001, "stop_time": 1.0}
+    asked = {"output": [*places, "energy", "lambda[0]", "height", "power", "frequency"], "output_interval": 0.001, "stop_time": 1.0}
     result = fmpy.simulate_fmu(str(held), start_values={**guess, "step_size": 0.001, "u[0]": 0.8}, **asked)
     q = np.column_stack([result[name] for name in places[:3]])
     holds(lambda: close([result[name][0] for name in places], [0.0, 0.42, -0.56, 0.5, 1.12, 0.84], 1e-15), "the nearest state begins")
@@ -491,6 +512,11 @@ for version, like in [(3, unit), (2, unit_of_two)]:
     check(abs(found - tension(result, 0.8, with_motion=0.99)[:-1]).max() > 0.02, "control: a hundredth of the motion is seen")
     check(abs(found - tension(result, 0.7)[:-1]).max() > 0.02, "control: the input is seen")
     check(result["lambda[0]"][0] == result["lambda[0]"][1], "at the start it is that of the first step")
+    by_hand = np.column_stack([q[:, 2] + LENGTH, 0.8 * result["v[0]"], np.full(len(q), (GRAVITY / LENGTH) ** 0.5)])
+    of_block = np.column_stack([result[name] for name in ["height", "power", "frequency"]])
+    holds(lambda: close(of_block, by_hand, 1e-15), "outputs of state and input, at the nearest state to begin with")
+    check(abs(of_block[0, :2] - [0.14, 0.4]).max() < 1e-15, "the first of them in numbers")
+    fails(lambda: close(of_block, by_hand * [1.0, 0.8001 / 0.8, 1.0], 1e-5), "the input is seen in the outputs")
 
 description_on_constraints = fmpy.read_model_description(descriptions / "constrained3.fmu")
 vr_on_constraints = {variable.name: variable.valueReference for variable in description_on_constraints.modelVariables}
@@ -509,6 +535,10 @@ lost.setFloat64([vr_on_constraints["q[2]"]], [-1.0])
 lost.exitInitializationMode()
 lost.doStep(0.0, 0.01)
 holds(lambda: close(lost.getFloat64([vr_on_constraints["lambda[0]"]]), [-M * GRAVITY], 1e-12), "the rod carries the weight")
+lost.setFloat64([vr_on_constraints["l"]], [-0.7])
+refused(lambda: lost.getFloat64([vr_on_constraints["frequency"]]), fmi3Error, "frequency is NaN", "at time 0.01", "fn outputs")
+refused(lambda: lost.getFloat64([vr_on_constraints[name] for name in ["height", "frequency"]]), fmi3Error, "frequency")
+check(lost.getFloat64([vr_on_constraints["height"]]) == [lost.getFloat64([vr_on_constraints["q[2]"]])[0] - 0.7], "others are numbers")
 lost.setFloat64([vr_on_constraints["l"]], [0.8])
 refused(lambda: lost.doStep(0.01, 0.01), fmi3Error, "constraint 0", "1.000e-1")
 shutil.rmtree(folder_on_constraints, ignore_errors=True)

@@ -26,6 +26,11 @@ impl Ring {
     fn rayleigh(&self, v: [f32; 2]) -> f32 {
         0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
     }
+
+    /// - `y[0]` s: square of the radius
+    fn outputs(&self, q: [f32; 2], _v: [f32; 2]) -> [f32; 1] {
+        [q[0] * q[0] + q[1] * q[1]]
+    }
 }
 
 dalembert_fmu::fmu! { ring: Ring, rule: Midpoint, step_size: 0.1, parameters: Ring { m: 1.0, k: 0.05 }, q: [0.0, 1.2], v: [0.5, 0.0] }
@@ -47,6 +52,8 @@ fn a_unit_in_single_precision_steps_as_rust_does() {
         assert_eq!(unit.single(["q[0]", "q[1]", "p[0]", "p[1]"]), Ok([q[0], q[1], p[0], p[1]]), "step {k}");
     }
     assert_ne!(unit.single(["q[0]"]), Ok([0.0]), "the control: it moves");
+    let [x, y] = unit.single(["q[0]", "q[1]"]).unwrap();
+    assert_eq!((unit.single(["s"]), unit.double(["s"])), (Ok([x * x + y * y]), Err(Status::Error)));
     unit.through_bytes().unwrap();
     unit.step(5.0, 0.1).unwrap();
 }

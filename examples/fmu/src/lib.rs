@@ -42,6 +42,13 @@ impl CartPole {
     fn force(&self, _q: [f64; 2], _v: [f64; 2], u: [f64; 1]) -> [f64; 2] {
         [u[0], 0.0]
     }
+
+    /// - `y[0]` tip: place of the rod's end along the rail. Unit: m
+    /// - `y[1]` height: of the rod's end over the hinge. Unit: m
+    fn outputs(&self, q: [f64; 2], _v: [f64; 2]) -> [f64; 2] {
+        let (sine, cosine) = q[1].sin_cos();
+        [q[0] + 2.0 * self.half_length * sine, 2.0 * self.half_length * cosine]
+    }
 }
 
 dalembert_fmu::fmu! {

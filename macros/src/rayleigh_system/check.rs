@@ -5,7 +5,7 @@ mod shape;
 mod signature;
 
 use quote::ToTokens;
-use syn::{Ident, ImplItemFn, Type};
+use syn::{Expr, Ident, ImplItemFn, Signature, Type};
 
 use super::attribute::Options;
 use super::diagnostics::{Mistake, Report};
@@ -35,17 +35,23 @@ fn block<'a>(source: &'a Source, options: &Options, report: &mut Report) -> Opti
     };
     let shape = signature::shape(&lagrangian.sig, source.name(), report)?;
     let (mut bodies, mut takes) = (Vec::new(), [None; Part::ALL.len()]);
-    let (mut input, mut constraints, mut events) = (None, [None, None], None);
+    let (mut input, mut constraints, mut values) = (None, [None, None], [const { None }; Part::VALUES.len()]);
     for (part, takes) in Part::ALL.into_iter().zip(&mut takes) {
         let Some(function) = named(part.name()) else { continue };
         let before = report.count();
         let stated = signature::stated(&function.sig, part, &shape, report);
         *takes = Some(stated.takes);
-        input = input.or(stated.input);
+        if part == Part::Force {
+            input = stated.input;
+        } else if let Some(length) = &stated.input
+            && bodies.iter().all(|body: &Body| body.has_right_signature)
+        {
+            same_input(&function.sig, length, input.as_ref(), report);
+        }
         if let Some(kind) = Part::CONSTRAINTS.iter().position(|&of| of == part) {
             constraints[kind] = stated.result;
-        } else {
-            events = events.or(stated.result);
+        } else if let Some(kind) = Part::VALUES.iter().position(|&of| of == part) {
+            values[kind] = stated.result;
         }
         let has_right_signature = report.count() == before;
         if part.entry().is_differentiated {
@@ -56,7 +62,7 @@ fn block<'a>(source: &'a Source, options: &Options, report: &mut Report) -> Opti
     let system = System {
         input: input.map(degrees),
         constraints: constraints.map(|length| length.map(degrees)),
-        events: events.map(degrees),
+        values: values.map(|length| length.map(degrees)),
         ..of_shape(source, source.name(), shape, options, (takes, bodies))
     };
     let generated =
@@ -146,6 +152,17 @@ pub fn field<'a>(source: &'a Source, report: &mut Report) -> Option<(System<'a>,
     Some((function_system(source, function, shape, &Options::default(), false, has_right_signature), field))
 }
 
+/// Reports an input, the third parameter, that is not the one that acts through the force.
+fn same_input(of: &Signature, length: &Expr, of_force: Option<&Expr>, report: &mut Report) {
+    match (of_force.map(|length| length.to_token_stream().to_string()), typed_parameters(of, report).get(2)) {
+        (None, Some((_, ty))) => report.at(ty, Mistake::InputOfFunction),
+        (Some(expected), _) if length.to_token_stream().to_string() != expected => {
+            report.at(length, Mistake::OtherInput { expected });
+        }
+        _ => {}
+    }
+}
+
 /// Parameters that become fields cannot be references.
 fn owned_parameters(parameters: &[Parameter<'_>], report: &mut Report) {
     for (_, ty) in parameters {
@@ -199,7 +216,7 @@ fn of_shape<'a>(
         takes,
         input: None,
         constraints: [None, None],
-        events: None,
+        values: [const { None }; Part::VALUES.len()],
         parameters: options.parameters.clone(),
         second: options.second,
         lanes: options.lanes.clone(),

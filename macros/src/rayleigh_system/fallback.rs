@@ -8,6 +8,7 @@ use syn::{FnArg, ImplItem, ImplItemFn, ReturnType, Signature, Type, parse_quote}
 
 use super::diagnostics::Report;
 use super::model::{Degrees, Lanes, Role, Source};
+use super::parts::Part;
 use super::rules::{Rule, Rules};
 use super::syntax::simple_name;
 
@@ -59,22 +60,17 @@ pub fn with_stubs(source: &Source, rules: &Rules, lanes: &Lanes, report: Report)
 
 /// `driven` or `at_time`, as far as the signatures tell, with the system for the view: it has all stubs.
 fn view_stub(source: &Source) -> Option<TokenStream> {
-    let after = |name: &str, count: usize| {
-        let function = source.functions().find(|function| function.sig.ident == name)?;
+    // What stands after q and v.
+    let after = |part: Part| {
+        let function = source.functions().find(|function| function.sig.ident == part.name())?;
         let parameters = function.sig.inputs.iter().filter(|parameter| matches!(parameter, FnArg::Typed(_)));
-        Some(parameters.skip(count).cloned().collect::<Vec<_>>())
+        Some(parameters.skip(part.entry().takes.choose([(); 4]).count()))
     };
     let is_array =
         |parameter: &FnArg| matches!(parameter, FnArg::Typed(typed) if matches!(&*typed.ty, Type::Array(_)));
-    let of_force = after("force", 2).unwrap_or_default();
-    let is_driven = of_force.iter().any(is_array);
-    let others = [after("constraints", 1), after("velocity_constraints", 2), after("events", 2)];
-    let is_timed = [after("lagrangian", 2), after("rayleigh", 1), Some(of_force)]
-        .iter()
-        .chain(&others)
-        .flatten()
-        .flatten()
-        .any(|parameter| !is_array(parameter));
+    let is_driven = after(Part::Force).into_iter().flatten().any(is_array);
+    let may_be_timed = Part::ALL.into_iter().filter(|part| part.entry().may_take.t);
+    let is_timed = may_be_timed.filter_map(after).flatten().any(|parameter| !is_array(parameter));
     let name = source.name();
     let function = format_ident!("{}", if is_driven { "driven" } else { "at_time" });
     let is_taken = source.functions().any(|own| own.sig.ident == function);

@@ -176,7 +176,7 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
         let components = components.into_iter().map(|component| lowering.scalar(at, component));
         *roots = Some(components.collect::<Result<Vec<_>>>()?);
     }
-    let [lagrangian, rayleigh, force, time_scale, constraints, velocity_constraints, _] = roots;
+    let [lagrangian, rayleigh, force, time_scale, constraints, velocity_constraints, ..] = roots;
     let number = |roots: Option<Vec<Node>>| roots.and_then(|roots| roots.first().copied());
     let Some(lagrangian) = number(lagrangian) else {
         return refuse(at, "there is no Lagrangian");

@@ -115,8 +115,8 @@ pub struct System<'a> {
     pub input: Option<Degrees>,
     /// The numbers of constraints and of velocity constraints, where there are any.
     pub constraints: [Option<Degrees>; 2],
-    /// The number of event functions, where there are any.
-    pub events: Option<Degrees>,
+    /// The numbers of event functions and of outputs, where there are any.
+    pub values: [Option<Degrees>; Part::VALUES.len()],
     /// Fields that the step is differentiated by, as listed: `m`, `c[0]`.
     pub parameters: Vec<Expr>,
     /// Whether the step is differentiated twice.
@@ -201,6 +201,12 @@ impl System<'_> {
         }
     }
 
+    /// The number of values of a part of [`Part::VALUES`] as a const generic argument, if there is one.
+    pub fn value_count(&self, part: Part) -> Option<TokenStream> {
+        let of = Part::VALUES.into_iter().zip(&self.values).find(|(of, _)| *of == part);
+        of.and_then(|(_, count)| count.as_ref()).map(|count| count.times(1))
+    }
+
     /// P as a const generic argument.
     pub fn parameter_count(&self) -> Literal {
         Literal::usize_unsuffixed(self.parameters.len())
@@ -222,6 +228,7 @@ impl System<'_> {
         let needs_view = match part {
             Part::Lagrangian | Part::Events => is_timed(part),
             Part::Rayleigh => is_timed(Part::Lagrangian) || is_timed(part),
+            Part::Outputs => is_timed(part) || self.takes(part).is_some_and(|takes| takes.u),
             Part::Force | Part::TimeScale => self.has_view(),
             Part::Constraints | Part::VelocityConstraints => Part::CONSTRAINTS.into_iter().any(is_timed),
         };

@@ -11,6 +11,7 @@ pub enum Part {
     Constraints,
     VelocityConstraints,
     Events,
+    Outputs,
 }
 
 /// A choice of the arguments that there are, which stand in this order.
@@ -71,7 +72,7 @@ pub struct Entry {
 
 impl Part {
     /// In the order in which their signatures are checked and their bodies lowered.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Lagrangian,
         Self::Rayleigh,
         Self::Force,
@@ -79,10 +80,14 @@ impl Part {
         Self::Constraints,
         Self::VelocityConstraints,
         Self::Events,
+        Self::Outputs,
     ];
 
     /// Constraints, in the order of their rows.
     pub const CONSTRAINTS: [Self; 2] = [Self::Constraints, Self::VelocityConstraints];
+
+    /// Functions whose values are asked for as the user wrote them.
+    pub const VALUES: [Self; 2] = [Self::Events, Self::Outputs];
 
     /// The name of the function.
     pub fn name(self) -> &'static str {
@@ -152,6 +157,15 @@ impl Part {
                 may_take: Arguments::Q_V_T,
                 returns: Returns::Numbers,
                 parameters: "`(&self, q: [f64; N], v: [f64; N])`, and `t: f64` after them if they depend on time",
+                is_term: false,
+                is_differentiated: false,
+            },
+            Self::Outputs => Entry {
+                name: "outputs",
+                takes: Arguments::Q_V,
+                may_take: Arguments::Q_V_U_T,
+                returns: Returns::Numbers,
+                parameters: "`(&self, q: [f64; N], v: [f64; N])`, and after them the input `u: [f64; M]`, a time `t: f64` or both",
                 is_term: false,
                 is_differentiated: false,
             },

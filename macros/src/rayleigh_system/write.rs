@@ -3,7 +3,6 @@
 
 mod constrained;
 mod continuous;
-mod event_functions;
 pub mod expanded;
 mod friction;
 mod fused;
@@ -12,6 +11,7 @@ mod in_lanes;
 pub mod item;
 pub mod notice;
 mod on_request;
+mod value_functions;
 pub mod view;
 
 use proc_macro2::TokenStream;
@@ -94,7 +94,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
         .map(|(functions, is_prescribed)| constrained::constrained(system, functions, is_prescribed));
     let constrained_by_parameters =
         functions.constraints_by_parameters.map(|function| constrained::by_parameters(system, function));
-    let event_functions = event_functions::event_functions(system);
+    let value_functions = value_functions::value_functions(system);
     let acting = continuous::acting_force(system, functions.cancelling_terms);
     let forced = system.rules.gauss.then(|| continuous::forced_lagrangian(system, functions.stages));
     let driven = functions.by_input.and_then(|by_input| on_request::driven(system, by_input));
@@ -124,7 +124,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
             #time_scale
             #constrained
             #constrained_by_parameters
-            #event_functions
+            #value_functions
             #acting
             #forced
             #driven

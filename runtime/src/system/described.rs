@@ -21,6 +21,8 @@ pub trait Described<const N: usize>: Sized + 'static {
     type Multipliers;
     /// The type of the values of all event functions: `[Scalar; EVENTS]`, or `()` where there are none.
     type Events;
+    /// The type of the values of all outputs: `[Scalar; OUTPUTS]`, or `()` where there are none.
+    type Outputs;
     /// The type that is stepped: the system, or its view with an input and a time.
     type View<'a>: ActingForce<N, Scalar = Self::Scalar>;
 
@@ -32,6 +34,10 @@ pub trait Described<const N: usize>: Sized + 'static {
     const CONSTRAINTS: usize;
     /// The number of event functions.
     const EVENTS: usize;
+    /// The number of outputs.
+    const OUTPUTS: usize;
+    /// The documentation of `fn outputs`, a text for each line or block of it.
+    const OUTPUTS_TOLD: &'static [&'static str];
     /// The parameters by which steps are differentiated, as listed.
     const PARAMETERS: &'static [&'static str];
 

@@ -18,6 +18,7 @@ mod lanes;
 mod midpoint_lanes;
 mod on_constraints;
 mod one_run;
+mod outputs_of_the_block;
 mod period;
 mod phases;
 mod random_events;

@@ -12,7 +12,8 @@ impl<I: Interface<N>, const N: usize> Unit<I, N> {
     /// modelDescription.xml of FMI 2.0.
     ///
     /// # Errors
-    /// Where a field is of a type that FMI 2.0 has not, an integer beyond 32 bits with a sign.
+    /// Where a field is of a type that FMI 2.0 has not, an integer beyond 32 bits with a sign; a
+    /// [`NamingError`](crate::NamingError) within, where a line of the documentation cannot be followed.
     pub fn description_fmi2(&self) -> io::Result<String> {
         let version = Version {
             number: "2.0",

@@ -177,7 +177,10 @@ fn returned(signature: &Signature, part: Part, shape: &Shape, report: &mut Repor
             return Some(array.len.clone());
         }
         (Returns::Covector, _) => format!("`[{}; N]`, a covector at q", shape.scalar),
-        (Returns::Numbers, _) => format!("`[{}; M]`, an array of M numbers", shape.scalar),
+        (Returns::Numbers, _) => {
+            let count = if Part::VALUES.contains(&part) { "K" } else { "M" };
+            format!("`[{}; {count}]`, an array of {count} numbers", shape.scalar)
+        }
         (Returns::Number, _) => format!("`{}`", shape.scalar),
     };
     report.at(&result_tokens(signature), Mistake::Returns { function, expected });

@@ -4,6 +4,7 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, format_ident, quote};
+use syn::{Expr, Meta, MetaNameValue};
 
 use super::super::model::{Home, Source, System};
 use super::super::parts::Part;
@@ -148,7 +149,11 @@ pub fn description(system: &System<'_>) -> TokenStream {
         let m = system.constraint_count();
         quote!(, constraints #m)
     });
-    let events = system.events.as_ref().map(|count| count.times(1)).map(|k| quote!(, events #k));
+    let events = system.value_count(Part::Events).map(|k| quote!(, events #k));
+    let outputs = system.value_count(Part::Outputs).map(|k| {
+        let documentation = documentation(system, Part::Outputs);
+        quote!(, outputs #k, [#(#documentation),*])
+    });
     let parameters = (!system.parameters.is_empty()).then(|| {
         let names = parameter_names(system);
         quote!(, parameters [#(#names),*])
@@ -156,8 +161,17 @@ pub fn description(system: &System<'_>) -> TokenStream {
     // described! { Arm [DrivenArm driven]: f64, 2, input u 1; described_Arm $ }
     quote! {
         #(#conditions)*
-        ::dalembert::generated::described! { #system_name #view: #scalar, #n #input #time #constraints #events #parameters; #words $ }
+        ::dalembert::generated::described! { #system_name #view: #scalar, #n #input #time #constraints #events #outputs #parameters; #words $ }
     }
+}
+
+/// The documentation of a part, a text for each line or block of it.
+fn documentation<'s>(system: &System<'s>, part: Part) -> impl Iterator<Item = &'s Expr> {
+    let function = system.source.functions().find(|function| function.sig.ident == part.name());
+    function.into_iter().flat_map(|function| &function.attrs).filter_map(|attribute| match &attribute.meta {
+        Meta::NameValue(MetaNameValue { path, value, .. }) if path.is_ident("doc") => Some(value),
+        _ => None,
+    })
 }
 
 /// The listed parameters as they are named: `m`, `c[0]`.
@@ -198,9 +212,12 @@ pub fn delegation(system: &System<'_>, part: Part, verification: Option<TokenStr
             ("lagrangian", "Lagrangian", Some(associated), later(system))
         }
         Part::Rayleigh => ("rayleigh", "Rayleigh", None, None),
-        Part::Force | Part::TimeScale | Part::Constraints | Part::VelocityConstraints | Part::Events => {
-            return None;
-        }
+        Part::Force
+        | Part::TimeScale
+        | Part::Constraints
+        | Part::VelocityConstraints
+        | Part::Events
+        | Part::Outputs => return None,
     };
     let [value, gradient, derivatives, variations] =
         ["", "_gradient", "_derivatives", "_variations"].map(|suffix| format_ident!("{function}{suffix}"));

@@ -30,7 +30,7 @@ impl Text<'_> {
                 Part::Rayleigh => quote!(Rayleigh),
                 Part::Force => quote!(Force { index: #index }),
                 Part::TimeScale => quote!(TimeScale),
-                Part::Constraints | Part::VelocityConstraints | Part::Events => {
+                Part::Constraints | Part::VelocityConstraints | Part::Events | Part::Outputs => {
                     quote!(Constraint { index: #index })
                 }
             };
