@@ -133,7 +133,7 @@ impl<'s, L: Lagrangian<N>, const N: usize> Recording<'s, L, N> {
         Failure { number, error, last: Some(End { number, time, state }) }
     }
 
-    /// What this item of `run` is.
+    /// This item of `run` as a record.
     fn record(
         &mut self,
         item: Option<Result<Next<L::Scalar, N>, EventError>>,
