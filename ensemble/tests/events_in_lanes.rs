@@ -25,7 +25,8 @@ impl Star {
     }
 }
 
-/// The numbers of members are those of points of a lattice: some stay, some pass the circle, some leave to infinity.
+/// The numbers of members are those of points of a lattice: some stay, some pass the circle, some leave to
+/// infinity.
 fn member(number: u64) -> Result<(Star, State<f64, 2>), dalembert::StepError> {
     let share = |k: u64| (k as f64 * 0.618_033_988_749_894_9).fract() - 0.5;
     let start = State {
