@@ -96,7 +96,7 @@ fn events_in_lanes_are_those_of_members_one_by_one() {
     // The control: another radius has other events.
     let other = |number| member(number).map(|(star, start)| (Star { radius: 0.8, ..star }, start));
     let alone =
-        rows!(Ensemble::new(member).by(Midpoint, 0.1).steps(20).watch(|at| at.events(), [true, false]));
+        rows!(Ensemble::new(member).by(Midpoint, 0.1).steps(60).watch(|at| at.events(), [true, false]));
     let lanes = rows!(
         Ensemble::new(other).by(Midpoint, 0.1).steps(60).in_lanes().watch(|at| at.events(), [true, false])
     );

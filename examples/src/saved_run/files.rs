@@ -4,6 +4,8 @@ use std::fmt;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use dalembert::Checkpoint;
@@ -38,6 +40,21 @@ impl<const N: usize> Saved<N> {
     }
 }
 
+/// How often a lock is asked for, and how long after each time: a process that this one has just begun has
+/// its open files until it is the other program.
+const TRIES: u32 = 20;
+const BETWEEN: Duration = Duration::from_millis(10);
+
+fn locked(file: &File) -> std::result::Result<(), TryLockError> {
+    for _ in 1..TRIES {
+        match file.try_lock() {
+            Err(TryLockError::WouldBlock) => thread::sleep(BETWEEN),
+            other => return other,
+        }
+    }
+    file.try_lock()
+}
+
 /// The open files of a run that nobody else is running.
 pub struct Files {
     folder: PathBuf,
@@ -57,7 +74,7 @@ impl Files {
             OpenOptions::new().create(true).truncate(false).read(true).write(true).open(&path)
         });
         let rows = opened.map_err(|error| cannot_write(error, &path, "nothing was computed"))?;
-        match rows.try_lock() {
+        match locked(&rows) {
             Err(TryLockError::WouldBlock) => {
                 bail!("another program is running the run in {}", folder.display())
             }
