@@ -72,10 +72,10 @@ fn defined() -> Result<BTreeSet<String>> {
     Ok(names)
 }
 
-/// Names in the second column of the tables of `page` that are not among `defined`.
+/// Names in the third column of the tables of four columns of `page` that are not among `defined`.
 fn undefined(page: &str, defined: &BTreeSet<String>) -> Vec<String> {
     let rows = page.lines().filter(|line| line.starts_with("| ") && line.matches(" | ").count() == 3);
-    rows.filter_map(|row| row.split(" | ").nth(1))
+    rows.filter_map(|row| row.split(" | ").nth(2))
         .flat_map(|cell| cell.split('`').skip(1).step_by(2))
         .filter(|name| !defined.contains(*name))
         .map(str::to_owned)
@@ -120,7 +120,7 @@ mod controls {
             missing_files("`tests/tests/step/cheese.rs`, `tests/tests/step/rest.rs`"),
             ["tests/tests/step/cheese.rs"]
         );
-        let row = "| **Theorem** | `subalgebra`, `moon` | `noether::subalgebra` | as printed |";
+        let row = "| **Theorem** | as printed | `subalgebra`, `moon` | `noether::subalgebra` |";
         assert_eq!(undefined(row, &defined().unwrap()), ["moon"]);
     }
 }
