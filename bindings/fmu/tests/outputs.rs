@@ -191,7 +191,7 @@ mod wrong {
     unit!(Block { mass }, ["\n - `y[0]` load: over the floor\n - `y[1]` again: the same\n"], 2);
     unit!(TooMany { mass }, ["- `y[0]` load: over the floor", "- `y[1]` again: the same"], 1);
     unit!(Twice { mass }, ["- `y[0]` load: over the floor", "- `y[0]` again: the same"], 2);
-    unit!(Unnamed { mass }, ["- `y[0]` 2nd load: over the floor"], 1);
+    unit!(Unnamed { mass }, ["- `y[0]` 2nd: over the floor"], 1);
     unit!(OfField { y }, ["- `y[0]` load: over the floor"], 1);
     unit!(Taken { mass }, ["- `y[0]` mass: of the load"], 1);
 }
@@ -204,7 +204,7 @@ fn names_that_cannot_be_are_typed_errors() -> Result<(), Box<dyn Error>> {
     assert_eq!(wrong::TooMany::packed(), Err(NamingError::NoVariable { line }));
     let line = "- `y[0]` again: the same";
     assert_eq!(wrong::Twice::packed(), Err(NamingError::ToldTwice { line }));
-    let line = "- `y[0]` 2nd load: over the floor";
+    let line = "- `y[0]` 2nd: over the floor";
     assert_eq!(wrong::Unnamed::packed(), Err(NamingError::NoName { line }));
     let line = "- `y[0]` mass: of the load";
     let error = NamingError::NameTwice { line };
