@@ -57,8 +57,8 @@ pub struct NodeSteps<S, const N: usize> {
 }
 
 impl<S: Scalar, const N: usize> NodeSteps<S, N> {
-    /// The asymmetry of d b⁻¹ + b⁻¹a that is worst; none for n = 1, and none where b is singular.
-    fn asymmetry(&self, sample: usize, relative: f64) -> Option<Option<Asymmetry>> {
+    /// The asymmetry of d b⁻¹ + b⁻¹a that is worst, 0 for n = 1; none where b is singular.
+    fn asymmetry(&self, sample: usize, relative: f64) -> Option<Asymmetry> {
         let before = invert(&self.before.q_by_p).ok()?;
         let after = invert(&self.after.q_by_p).ok()?;
         let k11 = self.before.p_by_p * before;
@@ -79,7 +79,8 @@ impl<S: Scalar, const N: usize> NodeSteps<S, N> {
                     .keep_if_worse(&mut worst, Finding::excess);
             }
         }
-        Some(worst)
+        let none = Tolerance { relative, scale: 1.0 };
+        Some(worst.unwrap_or_else(|| Finding::relative(0.0, none, Entry { entry: (0, 0), sample })))
     }
 
     fn is_finite(&self) -> bool {
@@ -103,17 +104,13 @@ impl RayleighEquation {
         relative: Option<f64>,
     ) -> Result<Self, RayleighStepError> {
         let relative = relative.unwrap_or_else(Tolerance::rounding::<S>);
-        let none = Tolerance { relative, scale: 1.0 };
-        let mut at_node =
-            nodes.first().map(|_| Finding::relative(0.0, none, Entry { entry: (0, 0), sample: 0 }));
+        let mut at_node = None;
         for (sample, node) in nodes.iter().enumerate() {
             if !node.is_finite() {
                 return Err(RayleighStepError::NonFinite { sample });
             }
             let found = node.asymmetry(sample, relative).ok_or(RayleighStepError::Degenerate { sample })?;
-            if let Some(found) = found {
-                found.keep_if_worse(&mut at_node, Finding::excess);
-            }
+            found.keep_if_worse(&mut at_node, Finding::excess);
         }
         let at_node = at_node.ok_or(RayleighStepError::NoSamples)?;
         Ok(Self { samples: nodes.len(), at_node })

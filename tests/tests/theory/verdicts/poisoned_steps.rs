@@ -3,7 +3,7 @@
 use dalembert::derivative::PhaseMatrix;
 use dalembert::nalgebra::vector;
 use dalembert::rayleigh::modified::ModifiedLinearSystem;
-use dalembert::rayleigh::{ConformalStep, RayleighStep};
+use dalembert::rayleigh::{ConformalStep, NodeSteps, RayleighEquation, RayleighStep};
 use dalembert::samples::{Pair, segments};
 use dalembert::{Discretise, Midpoint, State, Trapezoidal, rayleigh_system};
 
@@ -58,7 +58,12 @@ fn derivative(system: &Driven, h: f64) -> Derivative {
 fn of_derivatives(derivatives: &[Derivative], h: f64, relative: Option<f64>) -> Vec<(&'static str, bool)> {
     let rayleigh = RayleighStep::of(derivatives, relative);
     let conformal = ConformalStep::of(derivatives, relative);
+    let nodes: Vec<_> =
+        derivatives.iter().map(|&before| NodeSteps { before, after: derivatives[0] }).collect();
+    let equation = RayleighEquation::of(&nodes, relative);
     let mut answers = vec![
+        ("equation, is_rayleigh", equation.is_ok_and(|found| found.is_rayleigh())),
+        ("equation, in words", equation.is_ok_and(|found| found.to_string().starts_with("an equation"))),
         ("is_rayleigh", rayleigh.is_ok_and(|found| found.is_rayleigh())),
         ("a Rayleigh step", rayleigh.is_ok_and(|found| found.to_string().contains("a Rayleigh step"))),
         ("is_conformal", conformal.is_ok_and(|found| found.is_conformal())),
@@ -79,7 +84,7 @@ fn yes(answers: &[(&'static str, bool)]) -> Vec<&'static str> {
 fn poisoned_derivatives_get_no_yes() {
     let (right, wrong) = (derivative(&RIGHT, H), derivative(&WRONG, H));
     // Positive control, on both sides.
-    assert_eq!(yes(&of_derivatives(&[right], H, None)).len(), 5);
+    assert_eq!(yes(&of_derivatives(&[right], H, None)).len(), 7);
     assert!(yes(&of_derivatives(&[wrong], H, None)).is_empty());
     assert!(ModifiedLinearSystem::of(&wrong, H, None).is_ok());
     let none = of_derivatives(&[], H, None);
@@ -124,6 +129,7 @@ fn tolerances_and_step_sizes_that_say_nothing_get_no_yes() {
         assert!(found.is_empty(), "{h:e}: {found:?}");
         let by = WRONG.by(Trapezoidal, h);
         assert!(!by.rayleigh_step(&states()).is_ok_and(|found| found.is_rayleigh()), "{h:e}");
+        assert!(!by.rayleigh_equation(&states()).is_ok_and(|found| found.is_rayleigh()), "{h:e}");
         assert!(!by.conformal_step(&states()).is_ok_and(|found| found.is_conformal()), "{h:e}");
         assert!(by.conformal_hamilton_jacobi(&states()).is_err(), "{h:e}");
         let modified = by.modified_linear_system(&states());
@@ -138,6 +144,7 @@ fn poisoned_states_get_no_yes() {
         let answers = |states: &[State<f64, 2>]| {
             [
                 by.rayleigh_step(states).is_ok_and(|found| found.is_rayleigh()),
+                by.rayleigh_equation(states).is_ok_and(|found| found.is_rayleigh()),
                 by.conformal_step(states).is_ok_and(|found| found.is_conformal()),
                 by.conformal_hamilton_jacobi(states).is_ok(),
                 by.modified_linear_system(states).is_ok_and(|found| found.is_rayleigh()),
@@ -145,8 +152,8 @@ fn poisoned_states_get_no_yes() {
             ]
         };
         let is_right = system.circulating == 0.0;
-        assert_eq!(answers(&states()), [is_right; 5]);
-        assert_eq!(answers(&[]), [false; 5]);
+        assert_eq!(answers(&states()), [is_right; 6]);
+        assert_eq!(answers(&[]), [false; 6]);
         for poison in POISON {
             for part in 0..4 {
                 let mut states = states();
@@ -159,7 +166,7 @@ fn poisoned_states_get_no_yes() {
                 let found = answers(&states);
                 // Far out and close to 0 a linear system is what it is.
                 if !is_right || !poison.is_finite() {
-                    assert_eq!(found, [false; 5], "{poison:e}, part {part}");
+                    assert_eq!(found, [false; 6], "{poison:e}, part {part}");
                 }
             }
         }

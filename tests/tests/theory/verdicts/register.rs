@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 /// Verdicts, as `Type::name`.
-const BOOLEANS: [&str; 24] = [
+const BOOLEANS: [&str; 25] = [
     "Balance::is_balanced",
     "Closure::is_closed",
     "Condition::holds",
@@ -19,6 +19,7 @@ const BOOLEANS: [&str; 24] = [
     "ModifiedLinearSystem::is_rayleigh",
     "Proportion::is_constant",
     "RankDecision::is_clear",
+    "RayleighEquation::is_rayleigh",
     "RayleighStep::is_rayleigh",
     "RayleighStructure::allows_resplit",
     "RayleighStructure::is_rayleigh",

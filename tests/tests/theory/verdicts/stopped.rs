@@ -76,7 +76,7 @@ const GENERATORS: fn() -> [Generator<f64, 2>; 2] =
     || [Generator::translation("x", [1.0, 0.0]), Generator::translation("y", [0.0, 1.0])];
 
 /// All of them.
-const CHECKS: [Check; 23] = [
+const CHECKS: [Check; 24] = [
     ("Noether::symmetry", |samples, stop| {
         checked(CART.by(Midpoint, H).stopped_by(stop).noether().symmetry(&GENERATORS()[1], &samples.segments))
     }),
@@ -102,6 +102,9 @@ const CHECKS: [Check; 23] = [
     }),
     ("Discretised::conformal_step", |samples, stop| {
         checked(CART.by(Trapezoidal, H).stopped_by(stop).conformal_step(&samples.states))
+    }),
+    ("Discretised::rayleigh_equation", |samples, stop| {
+        checked(CART.by(Midpoint, H).stopped_by(stop).rayleigh_equation(&samples.states))
     }),
     ("Discretised::rayleigh_step", |samples, stop| {
         checked(CART.by(Midpoint, H).stopped_by(stop).rayleigh_step(&samples.states))
