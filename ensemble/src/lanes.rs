@@ -10,7 +10,7 @@ use multiversion::multiversion;
 use multiversion::target::match_target;
 
 use crate::member::{Failure, Record, caught};
-use crate::stepping::{Plan, Slot, Stepping, failed};
+use crate::stepping::{Plan, Slot, Started, Stepping, failed};
 
 /// As many members at a time as the machine has lanes for: [`Study::in_lanes`](crate::Study::in_lanes).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,7 +111,7 @@ pub(crate) trait InLane<'s, L: Lagrangian<N>, const N: usize> {
 
     /// Looks at the member, which has come to `state`; how many steps on it is looked at again, if it goes
     /// on. Breaks where all end.
-    fn look(&mut self, state: State<L::Scalar, N>, stop: Stop<'_>) -> ControlFlow<(), Option<u64>>;
+    fn look(&mut self, state: State<L::Scalar, N>) -> ControlFlow<(), Option<u64>>;
 
     /// Makes the run of a member whose lane does not tell, from its start, which has the lane's states up
     /// to there. Records that were observed are not observed again. Breaks where all end.
@@ -151,7 +151,7 @@ where
         self.next
     }
 
-    fn look(&mut self, state: State<L::Scalar, N>, _: Stop<'_>) -> ControlFlow<(), Option<u64>> {
+    fn look(&mut self, state: State<L::Scalar, N>) -> ControlFlow<(), Option<u64>> {
         let Plan { h, steps: all, every, .. } = self.by.plan;
         let (number, system, steps) = (self.number, self.system, self.next);
         let time = if steps == 0 { 0.0 } else { h.widen() * steps as f64 };
@@ -191,18 +191,9 @@ where
     ) -> ControlFlow<()> {
         let Plan { steps, every, .. } = self.plan;
         let next = if every.is_some() { 0 } else { steps };
-        let waiting = members.iter_mut().filter_map(|Slot { number, start, value, failure }| {
-            let number = *number;
-            match start {
-                Ok((system, start)) => {
-                    let (system, start) = (&*system, *start);
-                    Some(OnItsWay { by: self, observe, number, system, start, value, failure, seen: 0, next })
-                }
-                Err(error) => {
-                    *failure = Some(Failure { number, error: (*error).into(), last: None });
-                    None
-                }
-            }
+        let waiting = members.iter_mut().filter_map(Slot::started).map(|member| {
+            let Started { number, system, start, value, failure } = member;
+            OnItsWay { by: self, observe, number, system, start, value, failure, seen: 0, next }
         });
         self.advance_in_lanes(waiting, stop)
     }
@@ -302,7 +293,7 @@ impl<M: Copy, S: Scalar> SideBySide<M, S> {
                 }
                 let Some(member) = &mut lanes[lane] else { continue };
                 let further = match runs.state(lane) {
-                    Some(state) => member.look(state, stop)?,
+                    Some(state) => member.look(state)?,
                     None => {
                         member.alone(stop)?;
                         None

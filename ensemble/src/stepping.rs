@@ -24,6 +24,30 @@ pub struct Slot<L: Lagrangian<N>, V, const N: usize> {
     pub failure: Option<Failure<L::Scalar, N>>,
 }
 
+/// A member that has a start.
+pub(crate) struct Started<'s, L: Lagrangian<N>, V, const N: usize> {
+    pub(crate) number: u64,
+    pub(crate) system: &'s L,
+    pub(crate) start: State<L::Scalar, N>,
+    pub(crate) value: &'s mut V,
+    pub(crate) failure: &'s mut Option<Failure<L::Scalar, N>>,
+}
+
+impl<L: Lagrangian<N>, V, const N: usize> Slot<L, V, N> {
+    /// The member, if it has a start; otherwise that is its failure.
+    pub(crate) fn started(&mut self) -> Option<Started<'_, L, V, N>> {
+        let Self { number, start, value, failure } = self;
+        let number = *number;
+        match start {
+            Ok((system, start)) => Some(Started { number, system, start: *start, value, failure }),
+            Err(error) => {
+                *failure = Some(Failure { number, error: (*error).into(), last: None });
+                None
+            }
+        }
+    }
+}
+
 /// How the members of a chunk are stepped.
 ///
 /// One of one's own may look for events: it hands them on as records ([`Record::event`]), in the order of
@@ -91,11 +115,8 @@ pub fn one_by_one<L: Lagrangian<N>, V, const N: usize>(
     members: &mut [Slot<L, V, N>],
     run: impl Fn(u64, &L, &State<L::Scalar, N>, &mut V) -> ControlFlow<(), Option<Failure<L::Scalar, N>>>,
 ) -> ControlFlow<()> {
-    for Slot { number, start, value, failure } in members {
-        *failure = match start {
-            Ok((system, start)) => run(*number, system, start, value)?,
-            Err(error) => Some(Failure { number: *number, error: (*error).into(), last: None }),
-        };
+    for Started { number, system, start, value, failure } in members.iter_mut().filter_map(Slot::started) {
+        *failure = run(number, system, &start, value)?;
     }
     ControlFlow::Continue(())
 }

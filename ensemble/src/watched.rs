@@ -11,7 +11,7 @@ use dalembert::{Discretise, Lagrangian, State};
 
 use crate::lanes::{InLane, SideBySide};
 use crate::member::{End, Failure, MemberError, Record, caught};
-use crate::stepping::{OneByOne, Plan, Slot, Stepping, one_by_one};
+use crate::stepping::{OneByOne, Plan, Slot, Started, Stepping, one_by_one};
 use crate::study::Study;
 
 /// Each member by a run of its own, or in a lane, watched for events.
@@ -94,9 +94,10 @@ impl<F, B, L: Lagrangian<N>, G, const N: usize, const K: usize> Study<'_, F, Wat
 }
 
 impl<B, G, const K: usize> Watched<B, G, K> {
-    fn description<M, S: Scalar>(&self, plan: &Plan<S>) -> String {
+    /// How the members are stepped and watched, in words.
+    fn described(&self, steps: &str) -> String {
         let Self { crossings, terminal, .. } = self;
-        format!("{}, watched for {crossings:?}, terminal {terminal:?}", plan.description::<M>())
+        format!("{steps}, watched for {crossings:?}, terminal {terminal:?}")
     }
 }
 
@@ -175,7 +176,7 @@ where
     }
 
     fn description(&self) -> String {
-        self.description::<M, _>(&self.by.plan)
+        self.described(&Stepping::<L, N>::description(&self.by))
     }
 
     fn has_events(&self) -> bool {
@@ -183,7 +184,7 @@ where
     }
 
     fn at_start(&self, system: &L, start: &State<L::Scalar, N>) -> Vec<f64> {
-        self.by.plan.first_step(self.by.method, system, start)
+        self.by.at_start(system, start)
     }
 }
 
@@ -254,26 +255,22 @@ where
         // A watch borrows its run: these stand apart.
         let mut told: Vec<_> = members
             .iter_mut()
-            .filter_map(|Slot { number, start, value, failure }| match start {
-                Ok((system, start)) => {
-                    let recording = Recording::new(*number, &*system, *start, &plan);
-                    Some((ToldRun::new(method, &*system, *start, plan.h), recording, *start, value, failure))
-                }
-                Err(error) => {
-                    *failure = Some(Failure { number: *number, error: (*error).into(), last: None });
-                    None
-                }
+            .filter_map(Slot::started)
+            .map(|member| {
+                let Started { number, system, start, .. } = member;
+                let recording = Recording::new(number, system, start, &plan);
+                (ToldRun::new(method, system, start, plan.h), recording, member)
             })
             .collect();
-        let waiting = told.iter_mut().map(|(run, recording, start, value, failure)| {
+        let waiting = told.iter_mut().map(|(run, recording, member)| {
             let watch = Watch::new(run, &self.g).crossing(self.crossings).terminal(self.terminal);
-            WatchedInLane { by: self, observe, watch, recording, start: *start, value, failure, seen: 0 }
+            WatchedInLane { by: self, observe, watch, recording, member, seen: 0 }
         });
         self.by.advance_in_lanes(waiting, stop)
     }
 
     fn description(&self) -> String {
-        self.description::<M, _>(&self.by.plan)
+        self.described(&Stepping::<L, N>::description(&self.by))
     }
 
     fn has_events(&self) -> bool {
@@ -281,7 +278,7 @@ where
     }
 
     fn at_start(&self, system: &L, start: &State<L::Scalar, N>) -> Vec<f64> {
-        self.by.plan.first_step(self.by.method, system, start)
+        self.by.at_start(system, start)
     }
 }
 
@@ -294,9 +291,7 @@ where
     observe: &'p O,
     watch: Watch<'t, ToldRun<'s, L, M, N>, &'p G, N, K>,
     recording: &'t mut Recording<'s, L, N>,
-    start: State<L::Scalar, N>,
-    value: &'t mut &'s mut V,
-    failure: &'t mut &'s mut Option<Failure<L::Scalar, N>>,
+    member: &'t mut Started<'s, L, V, N>,
     /// Records that were observed.
     seen: u64,
 }
@@ -308,7 +303,7 @@ where
 {
     /// Observes a record; whether the member goes on.
     fn goes_on(&mut self, record: &Record<'s, L, N>) -> bool {
-        let observed = (self.observe)(self.value, record);
+        let observed = (self.observe)(self.member.value, record);
         self.seen += 1;
         observed.is_continue()
     }
@@ -323,18 +318,18 @@ where
     O: Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
 {
     fn system(&self) -> &'s L {
-        self.recording.last.system
+        self.member.system
     }
 
     fn start(&self) -> State<L::Scalar, N> {
-        self.start
+        self.member.start
     }
 
     fn first(&self) -> u64 {
         u64::from(self.recording.start().is_none())
     }
 
-    fn look(&mut self, state: State<L::Scalar, N>, _: Stop<'_>) -> ControlFlow<(), Option<u64>> {
+    fn look(&mut self, state: State<L::Scalar, N>) -> ControlFlow<(), Option<u64>> {
         let (on, done) = (ControlFlow::Continue(Some(1)), ControlFlow::Continue(None));
         if self.recording.last.steps == 0
             && self.seen == 0
@@ -361,7 +356,7 @@ where
                     return done;
                 }
                 Recorded::Failed(failure) => {
-                    **self.failure = Some(failure);
+                    *self.member.failure = Some(failure);
                     return done;
                 }
             }
@@ -372,13 +367,13 @@ where
     fn alone(&mut self, stop: Stop<'_>) -> ControlFlow<()> {
         let mut records = 0;
         let SideBySide { method, plan } = self.by.by;
-        let (number, system) = (self.recording.last.number, self.recording.last.system);
-        let (seen, value) = (self.seen, &mut **self.value);
+        let Started { number, system, start, value, failure } = &mut *self.member;
+        let seen = self.seen;
         let observe = |record: &Record<'_, L, N>| {
             records += 1;
             if records > seen { (self.observe)(value, record) } else { ControlFlow::Continue(()) }
         };
-        **self.failure = self.by.run((method, plan), (number, system, &self.start), observe, stop)?;
+        **failure = self.by.run((method, plan), (*number, system, start), observe, stop)?;
         ControlFlow::Continue(())
     }
 }

@@ -135,9 +135,10 @@ where
         require_informative(segments, |segment| segment.moves() && moves_an_end(generator, segment))?;
         let segments = &at_several_times(&self.by, segments)[..];
         let ends = |segment: &Pair<L::Scalar, N>| [&segment.q0, &segment.q1].map(|q| function(q).widen());
+        let ends: Vec<_> = segments.iter().map(ends).collect();
         let terms = segments.iter().enumerate().map(|(k, segment)| {
             let mut terms = self.terms(k, 0, generator, segment)?;
-            let [from, to] = ends(segment);
+            let [from, to] = ends[k];
             terms.defect.lagrangian -= to - from;
             terms.size.lagrangian += from.abs() + to.abs();
             Ok::<_, SampleError>(terms)
@@ -149,8 +150,8 @@ where
         let of_all = sizes(|terms| terms.size.total());
         let contribution =
             |value: &dyn Fn(usize) -> f64, scales: &[f64]| worst(segments, self.tolerance, scales, value);
-        let identity = |(k, segment): (usize, &Pair<L::Scalar, N>)| {
-            let (Pair { q0, q1 }, [from, to]) = (segment, ends(segment));
+        let identity = |(k, Pair { q0, q1 }): (usize, &Pair<L::Scalar, N>)| {
+            let [from, to] = ends[k];
             let jump = at_segment(&self.by, k, |by| {
                 let Momenta { p0, p1 } = by.objects(q0, q1).momenta();
                 p1.dot(&generator.vector(q1)) - p0.dot(&generator.vector(q0))
