@@ -4,9 +4,10 @@
 
 use nalgebra::SVector;
 
-use crate::numbers::{CovectorDerivatives, Derivatives, Scalar, comparison::Compares as _};
+use crate::numbers::{CovectorDerivatives, Derivatives, Scalar};
 use crate::system::{
-    Force, Function, Lagrangian, NoDerivative, Plain, Quantity, Rayleigh, derivatives_apart,
+    DryFriction, Force, Function, Lagrangian, NoDerivative, Plain, Quantity, Rayleigh, Slips,
+    derivatives_apart,
 };
 
 /// The derivative of L that is NaN or infinite at (q, v).
@@ -31,6 +32,23 @@ pub fn rayleigh<L: Rayleigh<N> + ?Sized, const N: usize>(
     v: &SVector<L::Scalar, N>,
 ) -> Option<NoDerivative> {
     of(system, Function::Rayleigh, of_function(&system.rayleigh_derivatives(q, v)), q, v)
+}
+
+/// The derivative that is NaN or infinite at (q, v) of R apart from its kinks, which are no fault; or of a
+/// kink whose slip or limit is one.
+#[cold]
+#[inline(never)]
+#[must_use]
+pub fn dry_friction<L: DryFriction<N, M> + ?Sized, const N: usize, const M: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
+) -> Option<NoDerivative> {
+    let smooth = of_function(&system.smooth_rayleigh_derivatives(q, v));
+    of(system, Function::Rayleigh, smooth, q, v).or_else(|| {
+        let coordinate = of_slips(&system.slips(q, v)).filter(|_| is_point(q, v))?;
+        Some(NoDerivative { function: Function::Rayleigh, coordinate, place: None })
+    })
 }
 
 /// The first component of f with a derivative that is NaN or infinite at (q, v).
@@ -77,12 +95,25 @@ fn of<L: Lagrangian<N> + ?Sized, const N: usize>(
     q: &SVector<L::Scalar, N>,
     v: &SVector<L::Scalar, N>,
 ) -> Option<NoDerivative> {
-    let coordinate = coordinate?;
-    // At a point that is none no function is to blame.
-    if !L::Scalar::are_finite(q.as_slice()) || !L::Scalar::are_finite(v.as_slice()) {
-        return None;
-    }
+    let coordinate = coordinate.filter(|_| is_point(q, v))?;
     Some(NoDerivative { function, coordinate, place: system.place_without_derivative(function, q, v) })
+}
+
+/// At a point that is none no function is to blame.
+fn is_point<S: Scalar, const N: usize>(q: &SVector<S, N>, v: &SVector<S, N>) -> bool {
+    S::are_finite(q.as_slice()) && S::are_finite(v.as_slice())
+}
+
+/// The first coordinate that moves an element of dry friction whose slip or limit is not finite.
+fn of_slips<S: Scalar, const N: usize, const M: usize>(slips: &Slips<S, N, M>) -> Option<usize> {
+    let Slips { values, by_velocity, by_configuration, limits } = slips;
+    let impulses = (by_velocity + by_configuration).map(|entry| entry.abs()).transpose();
+    let mut elements = impulses.column_iter().zip(values).zip(limits);
+    elements.find_map(|((element, slip), limit)| {
+        let is_lost = !(*slip * *limit).is_finite();
+        let lost = element.iter().position(|entry| !entry.is_finite());
+        lost.or_else(|| element.iter().position(|entry| is_lost && *entry > S::zero()))
+    })
 }
 
 /// The first coordinate that a derivative by it is not finite.

@@ -292,7 +292,7 @@ fn is_right<const N: usize>(
 /// counter wraps, no clock stands still.
 #[test]
 fn odd_checkpoints_end_in_a_typed_error_or_a_right_run() {
-    const EACH: u32 = if cfg!(debug_assertions) { 40 } else { 2_000 };
+    const EACH: u32 = if cfg!(debug_assertions) { 20 } else { 2_000 };
     let mut odd = Odd(20);
     let mut ends = Ends::default();
     fn by_method<L, M: Copy, const N: usize>(

@@ -28,7 +28,7 @@ pub fn lagrangian(
     let asked = |home: Home| {
         let (verification, places) = (verification(system, home), &places[usize::from(home == Home::View)]);
         let is_expanded = matches!(structure.engine, Engine::Expanded);
-        let missing = (!is_expanded || places.is_some()).then(|| without_derivative(system, home));
+        let missing = (!is_expanded || places.is_some()).then(|| without_derivative(system, structure, home));
         let non_finite = non_finite_value(system, home, plain.names_fields);
         let constraints = constrained::held(system, home);
         let massless = massless_force(system, home);
@@ -63,9 +63,15 @@ pub fn lagrangian(
 }
 
 /// `fn without_derivative`: of L, R and f, as far as `home` has them.
-fn without_derivative(system: &System<'_>, home: Home) -> TokenStream {
+fn without_derivative(system: &System<'_>, structure: &Structure, home: Home) -> TokenStream {
     let parts = system.terms().filter(|&part| home == Home::View || system.home_of(part) == home);
-    let others = parts.skip(1).map(|part| format_ident!("{}", part.name()));
+    // Where a rule takes kinks apart, a kink is no fault.
+    let has_kinks = structure.findings.as_ref().is_some_and(|findings| findings.kinks > 0);
+    let are_apart = has_kinks && system.rules.proximal.is_some() && home == system.home();
+    let others = parts.skip(1).map(|part| match part {
+        Part::Rayleigh if are_apart => format_ident!("dry_friction"),
+        _ => format_ident!("{}", part.name()),
+    });
     // missing::lagrangian(self, q, v).or_else(|| missing::rayleigh(self, q, v))
     quote! {
         #[cold]

@@ -80,6 +80,13 @@ impl<S: Scalar, const N: usize, const M: usize> Sliding<S, N, M> {
         Some(held)
     }
 
+    /// No number as what is left, where the slips or limits are none: no smaller step would help.
+    #[cold]
+    fn unknown(&self) -> Option<SVector<S, N>> {
+        let is_finite = self.response.iter().chain(&self.values).all(|entry| entry.is_finite());
+        (!is_finite).then(|| SVector::repeat(S::constant(f64::NAN)))
+    }
+
     /// The share of the friction forces s in p0.
     pub(super) fn impulse(&self, forces: &SVector<S, M>) -> SVector<S, N> {
         self.directions * forces
@@ -235,7 +242,7 @@ where
         let held = sliding.held(L::ELEMENTS, factored, &left, &start);
         self.held.set(held);
         self.on.set(Some(*segment));
-        let held = held?;
+        let Some(held) = held else { return sliding.unknown() };
         let impulse = sliding.impulse(&held.forces);
         let rounding = impulse.abs() * (L::Scalar::EPSILON * L::Scalar::constant(4.0));
         self.rounding.set(rounding);

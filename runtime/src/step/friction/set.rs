@@ -75,6 +75,9 @@ impl<S: Scalar, const M: usize> Elements<'_, S, M> {
     #[cold]
     #[inline(never)]
     fn at_length(&self, mut forces: SVector<S, M>) -> Option<Held<S, M>> {
+        if !self.is_finite() {
+            return None;
+        }
         for round in 0..ROUNDS {
             if let Some(held) = self.corrected(forces) {
                 return Some(held);
@@ -135,6 +138,11 @@ impl<S: Scalar, const M: usize> Elements<'_, S, M> {
             }
         }
         Some(NewtonMatrix::factored(&rows.transpose())?.solve(&left))
+    }
+
+    /// Whether all that stands in it is a number: else no sweep ends.
+    fn is_finite(&self) -> bool {
+        self.response.iter().chain(&self.free).all(|entry| entry.is_finite())
     }
 
     fn elements(&self) -> impl Iterator<Item = Element> + Clone {

@@ -1,6 +1,7 @@
 //! What steps with friction refuse.
 
-use dalembert::nalgebra::vector;
+use dalembert::nalgebra::{self, vector};
+use dalembert::system::{Function, Quantity};
 use dalembert::{Discretise, Proximal, State, StepError, rayleigh_system};
 
 struct Pushed {
@@ -48,11 +49,47 @@ fn friction_has_no_step_back_in_time() {
     assert!(by.with_step(0.05).near(&vector![3.0, 4.0]).step(&sliding).is_ok());
 }
 
+/// A ball and a beam on dry friction, under a force that its field spoils.
+struct Spoiled {
+    mu: f64,
+    push: f64,
+}
+
+#[rayleigh_system(rule = proximal)]
+impl Spoiled {
+    fn lagrangian(&self, _q: [f64; 3], v: [f64; 3]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+    }
+
+    fn rayleigh(&self, v: [f64; 3]) -> f64 {
+        self.mu * (v[0] * v[0] + v[1] * v[1]).sqrt() + 0.1 * v[2].abs()
+    }
+
+    fn force(&self, _q: [f64; 3], _v: [f64; 3]) -> [f64; 3] {
+        [0.0, 0.0, self.push * self.push]
+    }
+}
+
+/// The field is named, or the function: of a ball at rest it is not its root, which friction may stand at.
 #[test]
 fn a_factor_that_is_no_number_is_an_error() {
     let still = State { q: vector![0.0, 0.0], p: vector![0.0, 0.0] };
-    assert!(Pushed { mu: f64::NAN }.by(Proximal, 0.1).step(&still).is_err());
-    assert!(Pushed { mu: f64::INFINITY }.by(Proximal, 0.1).step(&still).is_err());
+    let by = |mu| Pushed { mu }.by(Proximal, 0.1).step(&still).unwrap_err();
+    let named = |name| StepError::NonFinite { quantity: Quantity::Field { name }, index: 0 };
+    assert_eq!(by(f64::NAN), named("mu"));
+    let said = |function, coordinate| StepError::NoDerivative { function, coordinate, place: None };
+    // Where no operation of the functions can lack a derivative, nothing looks for one.
+    let some = StepError::NonFinite { quantity: Quantity::Derivatives, index: 0 };
+    assert_eq!(by(f64::INFINITY), some);
+
+    for still in [vector![0.0, 0.0, 0.0], vector![0.3, -0.1, 0.2]].map(|p| State { q: nalgebra::zero(), p }) {
+        let by = |mu, push| Spoiled { mu, push }.by(Proximal, 0.1).step(&still);
+        assert_eq!(by(f64::NAN, 0.0).unwrap_err(), named("mu"));
+        assert_eq!(by(f64::INFINITY, 0.0).unwrap_err(), said(Function::Rayleigh, 0));
+        assert_eq!(by(0.2, f64::NAN).unwrap_err(), named("push"));
+        assert_eq!(by(0.2, 1e200).unwrap_err(), said(Function::Force { index: 2 }, 2));
+        assert!(by(0.2, 0.05).is_ok());
+    }
 }
 
 /// A motor with play in its gears, and a load on dry friction that falls with the speed by `fall`.

@@ -96,7 +96,7 @@ fn the_step_size_where_a_motion_ceases_is_found() {
     };
     let (_, near) = longest_of(&mut (1..40).map(|i| 1.1 + 1e-2 * f64::from(i)));
     assert!((1.12..1.48).contains(&near), "{near}, at an end");
-    let (longest, _) = longest_of(&mut (-100..=100).map(|i| near + 1e-4 * f64::from(i)));
+    let (longest, _) = longest_of(&mut (-25..=25).map(|i| near + 4e-4 * f64::from(i)));
     let exact = Exact::unforced(&Quartic);
     let error = exact.segment(vector![0.6], vector![1.1], 2.0).unwrap_err();
     let ExactError::ConjugatePoints { h, growth } = error else { panic!("{error}") };
