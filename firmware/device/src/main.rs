@@ -12,10 +12,10 @@ mod report;
 use core::hint::black_box;
 use core::panic::PanicInfo;
 use core::ptr;
-use dalembert::step::{ClosedForm, Segment};
+use dalembert::step::{ClosedForm, Flow, Segment};
 
 use dalembert::run::DrivenTrajectory;
-use dalembert::{Discretise, Elementary, Midpoint, State};
+use dalembert::{Discretise, Elementary, Midpoint, Proximal, State};
 use firmware_scenes::{STEPS, Stepped, digest, double, single};
 use report::Line;
 
@@ -97,6 +97,34 @@ where
     succeeded
 }
 
+/// Steps a system whose step has more to solve than p0(v̄) = p0; false where a step failed.
+fn run_bordered<L, M, S, const N: usize>(
+    name: &str,
+    counter: &machine::Counter,
+    (system, method): (&L, M),
+    start: State<S, N>,
+    h: S,
+) -> bool
+where
+    L: Flow<M, N, Scalar = S>,
+    S: Elementary,
+{
+    let mut trajectory = system.by(method, h).run(start);
+    let (mut sum, mut worst, mut hash, mut succeeded) = (0, 0, 0, true);
+    for index in 0..STEPS {
+        let mut step = None;
+        let instructions = counter.instructions(|| step = black_box(&mut trajectory).next());
+        sum += instructions;
+        worst = if index == 0 { 0 } else { instructions.max(worst) };
+        match step {
+            Some(Ok(step)) => hash = digest(hash, &step.state),
+            _ => succeeded = false,
+        }
+    }
+    Line::new("bordered").word(name).bits(hash).number(sum / STEPS).number(worst).write();
+    succeeded
+}
+
 /// Steps a cart-pole with an input each, as `in_c/main.c` does; false where a step failed.
 macro_rules! push {
     ($name:literal $module:ident $counter:ident) => {{
@@ -149,6 +177,20 @@ pub extern "C" fn start() -> ! {
     Line::new("stack").word("f64").number(stack_used()).write();
     succeeded &= push!("pushed_cart_pole_f32" single counter);
     succeeded &= push!("pushed_cart_pole_f64" double counter);
+    macro_rules! bordered {
+        ($name:literal $module:ident $system:ident $rule:ident) => {
+            let system = black_box($module::$system::SCENE);
+            succeeded &= match system.start() {
+                Ok(start) => run_bordered($name, &counter, (&system, $rule), start, $module::$system::STEP),
+                Err(_) => false,
+            };
+        };
+    }
+    bordered!("bob_f32" single Bob Midpoint);
+    bordered!("block_f32" single Block Proximal);
+    bordered!("bob_f64" double Bob Midpoint);
+    bordered!("block_f64" double Block Proximal);
+    Line::new("stack").word("bordered").number(stack_used()).write();
     #[cfg(feature = "may-panic")]
     Line::new("control").number([1, 2, 3][stack_used() as usize]).write();
     machine::exit(if succeeded { 0 } else { 2 })

@@ -10,19 +10,20 @@ use std::process::ExitCode;
 
 use ceilings::{Ceiling, ceiling, stack_ceiling};
 use dalembert::run::DrivenTrajectory;
-use dalembert::{Discrete, Discretise, Midpoint, State};
+use dalembert::step::Flow;
+use dalembert::{Discretise, Midpoint, Proximal, State};
 use firmware_scenes::{STEPS, Stepped, digest, double, single};
 
 /// How many scenes the program in C steps.
 const IN_C: usize = 2;
 
 /// The digest of the scene's states, by the same elementary functions as on the device.
-fn expected<L, const N: usize>(system: &L, start: State<L::Scalar, N>, h: L::Scalar) -> u64
+fn expected<L, M, const N: usize>((system, method): (&L, M), start: State<L::Scalar, N>, h: L::Scalar) -> u64
 where
-    L: Discrete<Midpoint, N>,
+    L: Flow<M, N>,
 {
     system
-        .by(Midpoint, h)
+        .by(method, h)
         .run(start)
         .take(STEPS as usize)
         .fold(0, |hash, step| digest(hash, &step.expect("the scene steps").state))
@@ -31,9 +32,11 @@ where
 /// The digests of all scenes, by the names that the device gives them.
 fn all_expected() -> HashMap<&'static str, u64> {
     macro_rules! scene {
-        ($name:literal $module:ident $system:ident) => {{
+        ($name:literal $module:ident $system:ident) => { scene!($name $module $system Midpoint) };
+        ($name:literal $module:ident $system:ident $rule:ident) => {{
             let system = $module::$system::SCENE;
-            ($name, expected(&system, system.start().expect("masses are regular"), $module::$system::STEP))
+            let start = system.start().expect("masses are regular");
+            ($name, expected((&system, $rule), start, $module::$system::STEP))
         }};
     }
     macro_rules! pushed {
@@ -56,6 +59,10 @@ fn all_expected() -> HashMap<&'static str, u64> {
         scene!("double_pendulum_f64" double DoublePendulum),
         scene!("cart_pole_f64" double CartPole),
         pushed!("pushed_cart_pole_f64" double),
+        scene!("bob_f32" single Bob),
+        scene!("block_f32" single Block Proximal),
+        scene!("bob_f64" double Bob),
+        scene!("block_f64" double Block Proximal),
     ])
 }
 
@@ -80,6 +87,7 @@ fn mistake(
     match words {
         ["c", name, bits, mean, _, _, _] => other_bits(name, bits, expected)
             .or_else(|| in_c::mistake(level, name, number(mean), in_rust(name))),
+        ["bordered", name, bits, ..] => other_bits(name, bits, expected),
         ["scene", name, bits, mean, worst, _] => {
             if let Some(other) = other_bits(name, bits, expected) {
                 return Some(other);
@@ -126,7 +134,7 @@ fn main() -> ExitCode {
     let expected = all_expected();
     let lines: Vec<Vec<&str>> = report.lines().map(|line| line.split_whitespace().collect()).collect();
     let count = |of: &str| lines.iter().filter(|words| words.first() == Some(&of)).count();
-    let (scenes, in_c) = (count("scene"), count("c"));
+    let (scenes, in_c) = (count("scene") + count("bordered"), count("c"));
     let mut failed = scenes != expected.len() || in_c != IN_C;
     if failed {
         eprintln!("{machine}: {scenes} scenes reported, not {}; {in_c} in C, not {IN_C}", expected.len());
@@ -151,6 +159,17 @@ fn main() -> ExitCode {
 mod tests {
     use super::*;
 
+    /// The scenes are of what they are for: the bob swings on its rod, the block comes to rest and stays there.
+    #[test]
+    fn the_bob_is_on_its_rod_and_the_block_stands() {
+        let (bob, block) = (double::Bob::SCENE, double::Block::SCENE);
+        let mut steps = bob.by(Midpoint, double::Bob::STEP).run(bob.start().unwrap()).take(STEPS as usize);
+        assert!(steps.all(|step| (step.unwrap().state.q.norm() - 0.5).abs() < 1e-15));
+        let mut run = block.by(Proximal, double::Block::STEP).run(block.start().unwrap());
+        let ends = [150, (STEPS - 152) as usize].map(|skipped| run.nth(skipped).unwrap().unwrap().state);
+        assert!(ends[0] == ends[1] && ends[0].p[0] == 0.0 && ends[0].q[0] != 0.0, "{ends:?}");
+    }
+
     #[test]
     fn other_bits_and_higher_counts_are_mistakes() {
         let expected = all_expected();
@@ -170,6 +189,10 @@ mod tests {
         assert!(first("90000").is_some_and(|text| text.contains("in the first step")));
         assert!(mistake(&["stack", "f64", "99999"], "m7", "3", &expected, in_rust).is_some());
         assert!(mistake(&["fault"], "m7", "3", &expected, in_rust).is_some());
+        let bits_of =
+            |bits: &str| mistake(&["bordered", "bob_f64", bits, "9", "9"], "m7", "3", &expected, in_rust);
+        assert_eq!(bits_of(&format!("{:016x}", expected["bob_f64"])), None);
+        assert!(bits_of("0000000000000000").is_some_and(|text| text.contains("on the host")));
         let in_c = |bits: &str, mean: &str| {
             mistake(&["c", "cart_pole_f64", bits, mean, "1100", "400", "1200"], "m7", "3", &expected, in_rust)
         };

@@ -1,4 +1,5 @@
-//! What the machines step: the double pendulum that all packages share, and a cart-pole with friction, left alone and pushed.
+//! What the machines step: the double pendulum that all packages share, a cart-pole with friction, left alone and pushed, a bob on a
+//! constraint, and a block that dry friction holds.
 
 use dalembert::{Discrete, Midpoint, State, StepError, rayleigh_system};
 
@@ -55,6 +56,80 @@ macro_rules! cart_pole {
     };
 }
 
+/// Systems of whose steps more than p0(v̄) = p0 is to be solved.
+macro_rules! bordered {
+    ($float:ident) => {
+        /// A bob on a rod, in Cartesian coordinates.
+        pub struct Bob {
+            /// Mass in kg, length in m, acceleration of gravity in m/s², friction in N s/m.
+            pub of: [$float; 4],
+        }
+
+        #[rayleigh_system(derivatives = expanded)]
+        impl Bob {
+            fn lagrangian(&self, q: [$float; 2], v: [$float; 2]) -> $float {
+                let [m, _, g, _] = self.of;
+                0.5 * m * (v[0] * v[0] + v[1] * v[1]) - m * g * q[1]
+            }
+
+            fn rayleigh(&self, v: [$float; 2]) -> $float {
+                0.5 * self.of[3] * (v[0] * v[0] + v[1] * v[1])
+            }
+
+            fn constraints(&self, q: [$float; 2]) -> [$float; 1] {
+                [q[0] * q[0] + q[1] * q[1] - self.of[1] * self.of[1]]
+            }
+        }
+
+        impl Bob {
+            /// Step size in s.
+            pub const STEP: $float = 0.01;
+            /// With the parameters that it has on every machine.
+            pub const SCENE: Self = Self { of: [1.0, 0.5, 9.81, 0.1] };
+
+            /// Where it starts: drawn to the side, and let go.
+            ///
+            /// # Errors
+            /// None, on its rod.
+            pub fn start(&self) -> Result<State<$float, 2>, StepError> {
+                State::from_velocity(self, [0.3, -0.4], [0.0, 0.0])
+            }
+        }
+
+        /// A block on a spring, which dry friction stops within the 200 steps, and holds.
+        pub struct Block {
+            /// Mass in kg, stiffness in N/m, dry friction in N, viscous friction in N s/m.
+            pub of: [$float; 4],
+        }
+
+        #[rayleigh_system(rule = proximal, derivatives = expanded)]
+        impl Block {
+            fn lagrangian(&self, q: [$float; 1], v: [$float; 1]) -> $float {
+                0.5 * self.of[0] * v[0] * v[0] - 0.5 * self.of[1] * q[0] * q[0]
+            }
+
+            fn rayleigh(&self, v: [$float; 1]) -> $float {
+                self.of[2] * v[0].abs() + 0.5 * self.of[3] * v[0] * v[0]
+            }
+        }
+
+        impl Block {
+            /// Step size in s.
+            pub const STEP: $float = 0.05;
+            /// With the parameters that it has on every machine.
+            pub const SCENE: Self = Self { of: [1.0, 1.0, 0.2, 0.05] };
+
+            /// Where it starts: drawn aside, and let go.
+            ///
+            /// # Errors
+            /// None, with a mass.
+            pub fn start(&self) -> Result<State<$float, 1>, StepError> {
+                State::from_velocity(self, [1.0], [0.0])
+            }
+        }
+    };
+}
+
 macro_rules! scenes {
     ($(#[$doc:meta])* $module:ident $float:ident $double_pendulum:path) => {
         $(#[$doc])*
@@ -63,6 +138,7 @@ macro_rules! scenes {
 
             pub use $double_pendulum;
 
+            bordered! { $float }
             cart_pole! { CartPole $float }
             cart_pole! {
                 PushedCartPole $float
