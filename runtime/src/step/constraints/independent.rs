@@ -1,4 +1,4 @@
-//! The Schur complement S = G(q1) W⁻¹ G(q0)ᵀ in triangles, where it is singular to rounding.
+//! The Schur complement S = G(q1) W⁻¹ G(q0)ᵀ in triangles, where it has lost half of its digits.
 //!
 //! S has the squares of what is left of one gradient beside the others: of a share of 10⁻⁸ nothing in double
 //! precision. Here what is left are vectors, at first xₖ of G(q0)ᵀ, aₖ = W⁻¹xₖ and yₖ of G(q1):
