@@ -142,7 +142,7 @@ impl<S: Scalar, const M: usize> Independent<S, M> {
         })
     }
 
-    /// What is made of all constraints by elimination.
+    /// Elimination of all constraints, and what is `made` of them.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn eliminated<const N: usize, T>(
         rows: &SMatrix<S, M, N>,
