@@ -15,6 +15,7 @@ mod pivoted;
 
 pub use banded::Banded;
 pub(crate) use columns::by_columns;
+pub(crate) use dense::{FactoredDense, factored_to_half};
 pub(crate) use determinant::determinant_sign;
 pub(crate) use pivoted::Pivoted;
 

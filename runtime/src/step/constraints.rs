@@ -23,6 +23,7 @@
 
 mod bordered;
 pub(super) mod complement;
+mod dependence;
 mod equation;
 pub(super) mod independent;
 mod inertia;
@@ -67,13 +68,18 @@ where
         guess: Option<&SVector<L::Scalar, N>>,
     ) -> Result<Step<L::Scalar, N>, StepError> {
         let equation = OnConstraints::<L, R, N, M>::new(system, state)?;
-        let step = step_by(system, &equation, state, h, guess).map_err(|error| equation.explained(error))?;
+        let step = step_by(system, &equation, state, h, guess);
+        // After a guess the caller goes on without one.
+        let step = step.map_err(|error| match guess {
+            Some(_) => error,
+            None => equation.explained(error, h),
+        })?;
         match equation.on_constraints(step, h) {
             // A guess that has led off N is left by the caller.
             Err(StepError::NoRealSolution { .. }) if guess.is_none() => {
                 step_at_length_by(system, &equation, state, h)
                     .and_then(|step| equation.on_constraints(step, h))
-                    .map_err(|error| equation.explained(error))
+                    .map_err(|error| equation.explained(error, h))
             }
             other => other,
         }
@@ -88,7 +94,7 @@ where
     ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
         let equation = OnConstraints::<L, R, N, M>::new(system, state)?;
         let BoundedStep { step, converged } = step_within_by(system, &equation, state, h, guess, iterations)
-            .map_err(|error| equation.explained(error))?;
+            .map_err(|error| equation.dependence(error).unwrap_or(error))?;
         Ok(BoundedStep { step: equation.on_constraints(step, h)?, converged })
     }
 

@@ -2,6 +2,7 @@
 //! motions and the same systems in minimal coordinates.
 
 mod at_an_instant;
+mod depending;
 mod derivatives;
 mod of_velocity;
 mod prescribed;

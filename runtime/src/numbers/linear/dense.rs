@@ -182,10 +182,32 @@ impl<S: Scalar, const N: usize> Factored<S, N> for FactoredDense<S, N> {
     }
 }
 
-#[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a NaN pivot must fail the comparison")]
-#[expect(clippy::needless_range_loop, reason = "rows k and i of one array are used together")]
+#[inline]
 pub(super) fn factored<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
+) -> Result<FactoredDense<S, N>, Singular> {
+    factored_with(matrix, S::constant(SUSPICIOUS), S::EPSILON * S::constant(8.0 * N as f64))
+}
+
+/// The matrix made ready; nothing where rounding has taken half of the digits of a pivot, so that to refine a
+/// solution once does not give all of them.
+#[inline]
+pub(crate) fn factored_to_half<S: Scalar, const N: usize>(
+    matrix: &SMatrix<S, N, N>,
+) -> Option<FactoredDense<S, N>> {
+    let half = S::EPSILON.sqrt();
+    factored_with(matrix, half.max(S::constant(SUSPICIOUS)), half).ok()
+}
+
+/// The factors, if of each pivot that is `suspicious` beside its row rounding has left more than the share
+/// `lost`.
+#[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a NaN pivot must fail the comparison")]
+#[expect(clippy::needless_range_loop, reason = "rows k and i of one array are used together")]
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn factored_with<S: Scalar, const N: usize>(
+    matrix: &SMatrix<S, N, N>,
+    suspicious: S,
+    lost: S,
 ) -> Result<FactoredDense<S, N>, Singular> {
     let (mut rows, mut order, mut scale) = ([[S::zero(); N]; N], [0; N], [S::zero(); N]);
     // Of arrays: an index into the matrix that is not shown to be within bounds would bring a panic into the
@@ -200,7 +222,7 @@ pub(super) fn factored<S: Scalar, const N: usize>(
         scale[i] = inverse_magnitude(&rows[i]);
     }
     let mut reciprocals = [S::zero(); N];
-    let mut suspicious = false;
+    let mut is_suspicious = false;
 
     for k in 0..N {
         let mut pivot = k;
@@ -211,8 +233,8 @@ pub(super) fn factored<S: Scalar, const N: usize>(
                 (pivot, best) = (i, candidate);
             }
         }
-        if !(best > S::constant(SUSPICIOUS)) {
-            suspicious = true;
+        if !(best > suspicious) {
+            is_suspicious = true;
             if !(best > S::zero()) {
                 return Err(Singular { column: k });
             }
@@ -235,13 +257,14 @@ pub(super) fn factored<S: Scalar, const N: usize>(
             }
         }
     }
-    if suspicious {
-        check_cancellation(matrix, &rows, &order)?;
+    if is_suspicious {
+        check_cancellation(matrix, &rows, &order, lost)?;
     }
     Ok(FactoredDense { rows, order, reciprocals })
 }
 
-/// A pivot is lost if it is below the rounding error of the sum that formed it.
+/// A pivot is lost if it is below this share of the terms of the sum that formed it, of which rounding takes
+/// ε.
 ///
 /// The test compares each uᵢᵢ with |aᵢᵢ| + Σ|lᵢₖ||uₖᵢ|: scaling rows or columns changes neither verdict.
 #[cold]
@@ -251,14 +274,14 @@ fn check_cancellation<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
     rows: &[[S; N]; N],
     order: &[usize; N],
+    lost: S,
 ) -> Result<(), Singular> {
-    let threshold = S::EPSILON * S::constant(8.0 * N as f64);
     for k in 0..N {
         let mut magnitude = matrix[(order[k].min(N - 1), k)].abs();
         for j in 0..k {
             magnitude += (rows[k][j] * rows[j][k]).abs();
         }
-        if !(rows[k][k].abs() > threshold * magnitude) {
+        if !(rows[k][k].abs() > lost * magnitude) {
             return Err(Singular { column: k });
         }
     }

@@ -5,7 +5,7 @@ use core::cell::{Cell, RefCell};
 use nalgebra::{SMatrix, SVector};
 
 use super::bordered::{Bordered, rounding_of_reactions};
-use super::nearest::{dependent, held, require_on};
+use super::nearest::{held, require_on};
 use super::rows::Rows;
 use super::undefined::undefined_on;
 use crate::numbers::{Factored, NewtonMatrix, Pivoted, Scalar};
@@ -28,9 +28,9 @@ pub(super) struct OnConstraints<'a, L, R, const N: usize, const M: usize>
 where
     L: ClosedForm<R, N>,
 {
-    system: &'a L,
+    pub(super) system: &'a L,
     free: OfRule<'a, L, R>,
-    state: &'a State<L::Scalar, N>,
+    pub(super) state: &'a State<L::Scalar, N>,
     /// G(q0)ᵀ, the directions of the reactions.
     directions: SMatrix<L::Scalar, N, M>,
     /// Whether momenta take W and S of the last kernel: of the quick method, to which the equation is all.
@@ -154,21 +154,6 @@ where
         }
         Rows::far_off(self.system, &segment, MOST_LEFT).map_err(off)?;
         Ok(segment)
-    }
-
-    /// The error of a step, by the constraints where these are its cause.
-    #[cold]
-    #[inline(never)]
-    pub(super) fn explained(&self, error: StepError) -> StepError {
-        match error {
-            StepError::SingularNewtonMatrix { .. } | StepError::NoRealSolution { .. } => {
-                match dependent::<L, N, M>(self.system, &self.state.q) {
-                    Some(constraint) => StepError::DependentConstraints { constraint },
-                    None => error,
-                }
-            }
-            other => other,
-        }
     }
 }
 
