@@ -62,7 +62,7 @@ pub use error::StepError;
 pub use flow::{BoundedFlow, Flow, Memory};
 pub use force_work::{EnergyExchange, ForceWork};
 pub use free::Free;
-pub use friction::Friction;
+pub use friction::{Friction, massless_velocity};
 pub(crate) use friction::{Slip, Slipping};
 pub use fused::Fused;
 pub use in_lanes::{DiscreteInLanes, FlowInLanes};

@@ -19,10 +19,14 @@
 mod element;
 mod end;
 mod equation;
+mod jump;
 mod line;
 mod linearized;
+mod rates;
+mod root;
 mod set;
 mod slipping;
+mod sticking;
 mod unturned;
 
 use nalgebra::{SMatrix, SVector};
@@ -33,18 +37,47 @@ use crate::step::{
     PhaseMatrix, Segment, State, StateBy, Step, StepError, step_by, step_within_by,
 };
 use crate::system::{DryFriction, DryFrictionParameters, Parameters};
-use end::{End, sticking, velocity};
+use end::{End, Middle, velocity};
 use equation::WithFriction;
+use jump::Jump;
 use linearized::LinearizedFriction;
+pub use rates::massless_velocity;
+use sticking::sticking;
 pub(crate) use slipping::{Slip, Slipping};
 
 /// Kinks of R with M components in all, [`DryFriction`]: the border of a step with friction that holds.
 #[derive(Clone, Copy, Debug)]
 pub struct Friction<const M: usize>;
 
-/// The step by the sets of what sticks and what slides.
-#[inline(never)]
+/// A step that was solved for, and its end.
+type Solved<S, const N: usize, const M: usize> = (BoundedStep<S, N>, End<S, N, M>);
+
+/// The step by the sets of what sticks and what slides, where `solve` has v̄ of its equation.
+#[inline(always)]
 fn by_sets<L, R, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    h: L::Scalar,
+    solve: impl Fn(
+        &WithFriction<'_, L, R, N, M>,
+        &State<L::Scalar, N>,
+    ) -> Result<BoundedStep<L::Scalar, N>, StepError>,
+) -> Result<BoundedStep<L::Scalar, N>, StepError>
+where
+    L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M>,
+{
+    let from = |state: &State<L::Scalar, N>| {
+        let equation = WithFriction::<L, R, N, M>::new(system, state);
+        let step = solve(&equation, state).map_err(|error| equation.explained(error))?;
+        held::<L, R, N, M>(system, state, step, h, &equation)
+    };
+    let solved = from(state)?;
+    if solved.1.light.are_any() { jumping(system, state, h, solved, &from) } else { Ok(solved.0) }
+}
+
+/// The step by the sets, with its Newton iterations.
+#[inline(never)]
+fn of_sets<L, R, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
     h: L::Scalar,
@@ -53,19 +86,57 @@ fn by_sets<L, R, const N: usize, const M: usize>(
 where
     L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M>,
 {
-    let equation = WithFriction::<L, R, N, M>::new(system, state);
-    let step = step_by(system, &equation, state, h, guess).map_err(|error| equation.explained(error))?;
-    held::<L, R, N, M>(system, state, step, h, &equation)
+    let solved = by_sets::<L, R, N, M>(system, state, h, |equation, state| {
+        step_by(system, equation, state, h, guess).map(|step| BoundedStep { step, converged: true })
+    });
+    solved.map(|solved| solved.step)
+}
+
+/// The step with the jumps at its start and its end, from that without; `from` solves for it.
+#[cold]
+#[inline(never)]
+fn jumping<L, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    h: L::Scalar,
+    mut solved: Solved<L::Scalar, N, M>,
+    from: &dyn Fn(&State<L::Scalar, N>) -> Result<Solved<L::Scalar, N, M>, StepError>,
+) -> Result<BoundedStep<L::Scalar, N>, StepError>
+where
+    L: DryFriction<N, M>,
+{
+    let light = solved.1.light;
+    let v = light.without(&state.velocity(system)?);
+    let jump = Jump::<_, N, M>::of(system, &light, &state.q, &v)?;
+    if jump.is_one(system, &light, &v) {
+        solved = from(&State { q: jump.q, ..*state })?;
+    }
+    let (mut step, end) = solved;
+    step.step.state.q = after_jump(system, h, &step.step.state.q, &end)?.q;
+    Ok(step)
+}
+
+/// The jump at the end of a step of size h that leads to q1.
+fn after_jump<L, const N: usize, const M: usize>(
+    system: &L,
+    h: L::Scalar,
+    q1: &SVector<L::Scalar, N>,
+    end: &End<L::Scalar, N, M>,
+) -> Result<Jump<L::Scalar, N, M>, StepError>
+where
+    L: DryFriction<N, M>,
+{
+    system.later(h, |system| Jump::of(system, &end.light, q1, &end.light.without(&end.v)))
 }
 
 /// The step that was solved for up to the momentum at its end.
 fn held<L, R, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
-    step: Step<L::Scalar, N>,
+    BoundedStep { step, converged }: BoundedStep<L::Scalar, N>,
     h: L::Scalar,
     equation: &WithFriction<'_, L, R, N, M>,
-) -> Result<Step<L::Scalar, N>, StepError>
+) -> Result<Solved<L::Scalar, N, M>, StepError>
 where
     L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M>,
 {
@@ -78,11 +149,14 @@ where
     {
         let half = h * L::Scalar::constant(0.5);
         let middle = state.q + v * half;
-        v = system.later(half, |system| sticking(system, &middle, &v, &held));
+        // The slips are linear in v: at rest they are those of what moves by itself, a belt.
+        let slips = system.later(half, |system| system.slips(&middle, &nalgebra::zero()));
+        v = sticking(&slips, &v, &held);
         w = system.momenta(&Segment { q0: state.q, v, h }).p1;
     }
-    let p1 = end(system, &Segment { q0: state.q, v, h }, &w)?.p;
-    Step::completed(state, h, v, &Momenta { p0: state.p, p1 }, step.report)
+    let end = end(system, &Segment { q0: state.q, v, h }, &w)?;
+    let step = Step::completed(state, h, v, &Momenta { p0: state.p, p1: end.p }, step.report)?;
+    Ok((BoundedStep { step, converged }, end))
 }
 
 /// The velocity at the end of a segment that is solved for, where p1 would be `w` without friction.
@@ -96,9 +170,10 @@ where
 {
     let Segment { q0, v, h } = segment;
     let half = *h * L::Scalar::constant(0.5);
-    let (middle, q1) = (q0 + v * half, q0 + v * *h);
-    system.later(half, |at_middle| {
-        at_middle.later(half, |at_end| velocity(at_end, &q1, (at_middle, &middle, *h), w, v))
+    let (q, q1) = (q0 + v * half, q0 + v * *h);
+    system.later(half, |system| {
+        let middle = Middle { system, h: *h, q, v: *v };
+        system.later(half, |at_end| velocity(at_end, &q1, &middle, w))
     })
 }
 
@@ -118,7 +193,7 @@ where
     ) -> Result<Step<L::Scalar, N>, StepError> {
         match guess.and_then(|guess| unturned::step::<L, R, N, M>(system, state, h, guess)) {
             Some(step) => Ok(step),
-            None => by_sets::<L, R, N, M>(system, state, h, guess),
+            None => of_sets::<L, R, N, M>(system, state, h, guess),
         }
     }
 
@@ -129,11 +204,9 @@ where
         guess: Option<&SVector<L::Scalar, N>>,
         iterations: u32,
     ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
-        let equation = WithFriction::<L, R, N, M>::new(system, state);
-        let BoundedStep { step, converged } = step_within_by(system, &equation, state, h, guess, iterations)
-            .map_err(|error| equation.explained(error))?;
-        let step = held::<L, R, N, M>(system, state, step, h, &equation)?;
-        Ok(BoundedStep { step, converged })
+        by_sets::<L, R, N, M>(system, state, h, |equation, state| {
+            step_within_by(system, equation, state, h, guess, iterations)
+        })
     }
 
     /// The general way solves it.

@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use crate::numbers::{Scalar, linear};
 use crate::step::cause::{explained_by_lagrangian, of_violation};
 use crate::step::equation::Alone;
-use crate::step::massless::Massless;
+use crate::step::massless::{Balance, Massless};
 use crate::step::regular::{beside_velocity, require_regular};
 use crate::step::{
     State, StepError, StepKernel, newton,
@@ -97,7 +97,12 @@ impl<S: Scalar, const N: usize> State<S, N> {
         }
         let residual = system.lagrangian_gradient(&self.q, &v).d2 - self.p;
         let (_, _, is_root) = held_against(&residual, &estimated_floor(&self.p, &mass, &v));
-        if is_root { Ok(v) } else { self.velocity_by_newton(system, &Massless::none(), None) }
+        if is_root {
+            return Ok(v);
+        }
+        let none = Massless::none();
+        let balance = |q: &SVector<S, N>, v: &SVector<S, N>| none.balance_at(system, q, v, S::constant(1.0));
+        self.velocity_by_newton(system, &none, &balance, None)
     }
 
     /// Where ∂²L/∂v² is singular or not finite at rest.
@@ -119,7 +124,18 @@ impl<S: Scalar, const N: usize> State<S, N> {
         if let Err(error) = found {
             require_determined_nearby(system, &massless, &self.q, &rest, error)?;
         }
-        self.velocity_by_newton(system, &massless, found.err())
+        if massless.are_any() {
+            // Dry friction acts beside velocities with mass.
+            let at_rest = |q: &SVector<S, N>, v: &SVector<S, N>| massless.at_rest(system, q, v);
+            if let Ok(others) = self.velocity_by_newton(system, &massless, &at_rest, None)
+                && let Some(v) = system.massless_velocity(&self.q, &others)
+            {
+                return Ok(v);
+            }
+        }
+        let balance =
+            |q: &SVector<S, N>, v: &SVector<S, N>| massless.balance_at(system, q, v, S::constant(1.0));
+        self.velocity_by_newton(system, &massless, &balance, found.err())
     }
 
     /// By Newton's method from rest or, with the `error` that this led to, from away from it.
@@ -129,11 +145,10 @@ impl<S: Scalar, const N: usize> State<S, N> {
         &self,
         system: &L,
         massless: &Massless<N>,
+        balance: &dyn Fn(&SVector<S, N>, &SVector<S, N>) -> Balance<S, N>,
         error: Option<StepError>,
     ) -> Result<SVector<S, N>, StepError> {
         let rest = nalgebra::zero();
-        let balance =
-            |q: &SVector<S, N>, v: &SVector<S, N>| massless.balance_at(system, q, v, S::constant(1.0));
         // 𝔽L is the limit h → 0 of the discrete transforms.
         let equation = Alone {
             kernel: |q: &SVector<S, N>, v: &SVector<S, N>| {

@@ -15,7 +15,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::element::elements;
-use super::end::{balance, velocity};
+use super::end::{Middle, balance};
 use super::equation::{at_middle, direction_of};
 use super::line::{Line, leave};
 use crate::numbers::Scalar;
@@ -145,16 +145,18 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
         // The velocity at the end.
         let w = k.momenta.p1;
         let (middle, q1) = (segment.q0 + segment.v * (h * half), segment.q0 + segment.v * h);
-        let end = system.later(h * half, |at_middle| {
-            at_middle.later(h * half, |at_end| velocity(at_end, &q1, (at_middle, &middle, h), &w, &segment.v))
-        })?;
+        let end = super::end(system, segment, &w)?;
         let at_end = system.later(h * half, |system| system.slips(&middle, &end.v));
         let mut at = State::of(L::ELEMENTS, &at_end.values, &directions, &terms(&end.v));
-        at.forces = end.forces;
-        at.sticks = end.sticks;
+        at.forces = end.held.forces;
+        at.sticks = end.held.sticks;
         at.require_off_edge(L::ELEMENTS)?;
         let l = system.later(h, |system| system.lagrangian_derivatives(&q1, &end.v));
-        let of_end = system.later(h, |system| balance(system, &end.massless, &q1, &end.v, h));
+        let of_end = system.later(h * half, |system| {
+            let middle = Middle { system, h, q: middle, v: segment.v };
+            let massless = (&end.massless, &end.light);
+            system.later(h * half, |at_end| balance(at_end, massless, &q1, &end.v, &middle))
+        });
         let second = Line::of(
             &(of_end.by_v + at.turning * at_end.by_velocity),
             &directions,

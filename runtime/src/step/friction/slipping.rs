@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use super::element::elements;
-use super::end;
+use super::{after_jump, end};
 use crate::numbers::Scalar;
 use crate::step::{ClosedForm, Discrete, Segment, State, StepError};
 use crate::system::{DryFriction, Slips};
@@ -57,9 +57,14 @@ impl<S: Scalar, const M: usize> Slipping<S, M> {
         L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M, Scalar = S>,
     {
         let end = end(system, segment, &system.momenta(segment).p1)?;
+        if end.light.are_any() {
+            // How fast the kinks let go there the end itself tells.
+            let q = after_jump(system, segment.h, &segment.end(), &end)?.q;
+            return system.later(segment.h, |system| Self::at(system, &State { q, p: end.p }));
+        }
         let half = segment.h * S::constant(0.5);
         let slips = system.later(half, |system| system.slips(&(segment.q0 + segment.v * half), &end.v));
-        Ok(Self { slips: slips.values, sticks: end.sticks })
+        Ok(Self { slips: slips.values, sticks: end.held.sticks })
     }
 
     /// One of the elements that have so many components each.
