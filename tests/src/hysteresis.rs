@@ -83,7 +83,8 @@ pub struct Motion {
     pub v: f64,
     /// The forces of the sliders against it.
     pub forces: [f64; SLIDERS],
-    slides: [bool; SLIDERS],
+    /// Which of them slide.
+    pub slides: [bool; SLIDERS],
     /// What friction took.
     pub dissipated: f64,
     /// How often a slider has begun to slide or come to stick.

@@ -32,6 +32,7 @@ mod unturned;
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{Factored, Scalar};
+use crate::step::massless::Massless;
 use crate::step::{
     Border, BorderParameters, BoundedStep, ClosedForm, Discrete, LegendreDerivatives, Momenta, MomentaBy,
     PhaseMatrix, Segment, State, StateBy, Step, StepError, step_by, step_within_by,
@@ -151,7 +152,7 @@ where
         let middle = state.q + v * half;
         // The slips are linear in v: at rest they are those of what moves by itself, a belt.
         let slips = system.later(half, |system| system.slips(&middle, &nalgebra::zero()));
-        v = sticking(&slips, &v, &held);
+        v = sticking(&slips, &v, &held, &Massless::none());
         w = system.momenta(&Segment { q0: state.q, v, h }).p1;
     }
     let end = end(system, &Segment { q0: state.q, v, h }, &w)?;

@@ -77,12 +77,17 @@ where
         };
         let is_linear = L::STRUCTURE.constant_mass_matrix && !massless.are_any();
         let slips = middle.system.slips(&middle.q, v);
-        Ok(Some(Line { left: line.value - w, factored, slips, beside: w, is_linear }))
+        let mut beside = w;
+        if light.are_any() {
+            let at = at_middle(&light, v, middle);
+            beside += light.rows(&terms(&at, &middle.q)) * (middle.h * S::constant(0.5));
+        }
+        Ok(Some(Line { left: line.value - w, factored, slips, beside, is_linear }))
     })?;
     let (mut v, held) = (found.x, found.held);
     let mut p = massless.without(&(w - found.impulse));
     if held.sticks.contains(&true) {
-        v = sticking(&middle.system.slips(&middle.q, &nalgebra::zero()), &v, &held);
+        v = sticking(&middle.system.slips(&middle.q, &nalgebra::zero()), &v, &held, &light);
         p = at_end.lagrangian_gradient(q1, &v).d2;
     }
     Ok(End { v, held, p, massless, light })
@@ -107,7 +112,8 @@ where
     if light.are_any() {
         let forces = at_middle(light, v, middle);
         balance.value = light.without(&balance.value) - light.rows(&forces.value) * half;
-        balance.by_v = light.without(&balance.by_v) - light.rows(&light.columns(&forces.d1)) * (half * half);
+        let springs = light.rows(&light.columns(&forces.d1)) * (half * half * S::EPSILON.sqrt());
+        balance.by_v = light.without(&balance.by_v) - springs;
         balance.by_q = light.without(&balance.by_q);
     }
     balance
@@ -125,8 +131,16 @@ where
     L: DryFriction<N, M, Scalar = S>,
     S: Scalar,
 {
-    let moved = light.rows(&(v - middle.v)) * (middle.h * S::constant(0.5));
+    let moved = light.rows(&(v - middle.v)) * (middle.h * S::constant(0.5) * S::EPSILON.sqrt());
     forces(middle.system, &(middle.q + moved), &middle.v)
+}
+
+/// Sizes of the terms of forces at q, as far as these and q tell.
+pub(super) fn terms<S: Scalar, const N: usize>(
+    forces: &CovectorDerivatives<S, N>,
+    q: &SVector<S, N>,
+) -> SVector<S, N> {
+    forces.value.abs() + forces.d1.abs() * q.abs()
 }
 
 /// Coordinates without mass that the kinks alone hold.

@@ -17,7 +17,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::end::forces;
+use super::end::{forces, terms};
 use super::root::{Line, root};
 use super::set::Held;
 use super::sticking::sticking;
@@ -68,12 +68,13 @@ impl<S: Scalar, const N: usize, const M: usize> Jump<S, N, M> {
             };
             let left = -light.rows(&forces.value);
             let slips = slips_of(system, light, &(q + by), by);
-            Ok(Some(Line { left, factored, slips, beside: left, is_linear: false }))
+            let beside = light.rows(&terms(&forces, q));
+            Ok(Some(Line { left, factored, slips, beside, is_linear: false }))
         })?;
         let mut by = found.x;
         if found.held.sticks.contains(&true) {
             let at_rest = slips_of(system, light, &(q + by), &nalgebra::zero());
-            by = sticking(&at_rest, &by, &found.held);
+            by = sticking(&at_rest, &by, &found.held, light);
         }
         Ok(Self { q: q + by, by, held: found.held })
     }
@@ -84,7 +85,7 @@ impl<S: Scalar, const N: usize, const M: usize> Jump<S, N, M> {
         L: DryFriction<N, M, Scalar = S>,
     {
         let forces = forces(system, &self.q, v);
-        let sizes = light.rows(&(forces.d1.abs() * self.q.abs() + forces.value.abs()));
+        let sizes = light.rows(&terms(&forces, &self.q));
         let size = stiffness(light, &forces.d1).factored().map(|factored| factored.solve(&sizes).amax());
         let size = self.q.amax() + size.unwrap_or(S::zero());
         self.by.amax() > size * (S::EPSILON * S::constant(ROUNDINGS))

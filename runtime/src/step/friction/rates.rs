@@ -18,7 +18,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::element::elements;
-use super::end::{forces, light_among};
+use super::end::{forces, light_among, terms};
 use super::equation::direction_of;
 use super::jump::Jump;
 use super::line::Line as Bordered;
@@ -67,7 +67,7 @@ where
     }
     let (v, held) = found;
     let v = if light.are_any() { motion.in_the_limit(&v, &held).unwrap_or(v) } else { v };
-    Some(massless.rows(&sticking(&motion.slips(&start), &v, &held)) + start)
+    Some(massless.rows(&sticking(&motion.slips(&start), &v, &held, &light)) + start)
 }
 
 /// Where the velocities without mass are looked for.
@@ -97,7 +97,7 @@ where
             let left = ahead - self.massless.rows(&forces.value);
             let by_velocity = self.light.without(&-forces.d2) + self.light.rows(&stiffness) * tau;
             let Some(factored) = self.massless.block(&by_velocity).factored() else { return Ok(None) };
-            let beside = self.massless.rows(&forces.value);
+            let beside = self.massless.rows(&terms(&forces, &self.q));
             Ok(Some(Line { left, factored, slips: self.slips(v), beside, is_linear: false }))
         });
         found.ok().map(|root| (root.x, root.held))

@@ -4,10 +4,11 @@ use nalgebra::SVector;
 
 use super::set::Held;
 use crate::numbers::Scalar;
+use crate::step::massless::Massless;
 use crate::system::Slips;
 
 /// The velocity nearby at which elements that stick have no slip to the last bit: the slips that stick are
-/// solved for as many velocities, those with the largest coefficients. The `slips` are those at rest, of what
+/// solved for as many velocities, those with the largest coefficients, `first` if they can be. The `slips` are those at rest, of what
 /// moves by itself, a belt.
 #[cold]
 #[inline(never)]
@@ -15,7 +16,9 @@ pub(super) fn sticking<S: Scalar, const N: usize, const M: usize>(
     slips: &Slips<S, N, M>,
     v: &SVector<S, N>,
     held: &Held<S, M>,
+    first: &Massless<N>,
 ) -> SVector<S, N> {
+    let is_first = first.rows(&SVector::repeat(S::one()));
     // Rows of ∂u/∂v beside −u, each over its largest coefficient.
     let mut rows = [([S::zero(); N], S::zero()); M];
     for (i, (row, right)) in rows.iter_mut().enumerate() {
@@ -33,13 +36,14 @@ pub(super) fn sticking<S: Scalar, const N: usize, const M: usize>(
     let mut pivots = [None; M];
     for _ in 0..M {
         let mut best = None;
-        // Redundant rows are left with rounding alone.
-        let mut most = S::EPSILON.sqrt();
+        let mut most = S::zero();
         for (i, (row, _)) in rows.iter().enumerate() {
-            for (j, entry) in row.iter().enumerate() {
+            for (j, (entry, is_first)) in row.iter().zip(is_first.as_slice()).enumerate() {
                 let is_taken = pivots.iter().flatten().any(|pivot| *pivot == j);
-                if pivots.get(i) == Some(&None) && !is_taken && entry.abs() > most {
-                    (best, most) = (Some((i, j)), entry.abs());
+                // Redundant rows are left with rounding alone.
+                let size = if entry.abs() > S::EPSILON.sqrt() { entry.abs() + *is_first } else { S::zero() };
+                if pivots.get(i) == Some(&None) && !is_taken && size > most {
+                    (best, most) = (Some((i, j)), size);
                 }
             }
         }
