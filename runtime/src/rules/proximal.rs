@@ -142,7 +142,9 @@ where
     L: Fused<Proximal, N> + SmoothRayleigh<N> + Driven<N, M>,
 {
     fn by_input(at: &LinearizedSegment<'_, L, Proximal, N>) -> Result<StateBy<L::Scalar, N, M>, StepError> {
-        at.answer(&Midpoint::force_by_input(at.on.segment(), at.on.system, L::force_by_input))
+        let (system, segment) = (at.on.system, at.on.segment());
+        let momenta = Midpoint::force_by_input(segment, system, L::force_by_input);
+        at.answer_input(&momenta, |q, v| system.later(segment.h, |system| system.force_by_input(q, v)))
     }
 }
 

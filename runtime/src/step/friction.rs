@@ -22,6 +22,7 @@ mod equation;
 mod jump;
 mod line;
 mod linearized;
+mod linearized_jump;
 mod rates;
 mod root;
 mod set;
@@ -242,7 +243,17 @@ where
         at: &Self::Linearized,
         momenta: &MomentaBy<L::Scalar, N, P>,
     ) -> Result<StateBy<L::Scalar, N, P>, StepError> {
-        at.answer(k, momenta)
+        at.answer(k, momenta, |_, _| nalgebra::zero())
+    }
+
+    fn answer_input<const P: usize>(
+        k: &LegendreDerivatives<L::Scalar, N>,
+        _: &SMatrix<L::Scalar, N, N>,
+        at: &Self::Linearized,
+        momenta: &MomentaBy<L::Scalar, N, P>,
+        at_end: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, P>,
+    ) -> Result<StateBy<L::Scalar, N, P>, StepError> {
+        at.answer(k, momenta, at_end)
     }
 }
 

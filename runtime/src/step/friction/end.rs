@@ -11,7 +11,7 @@
 //! At v1 = v̄ it is the first line, so that what slid slides on and what held holds. Its matrix is that of the
 //! first line, which a spring makes regular.
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use super::root::{Line, root};
 use super::set::Held;
@@ -133,6 +133,26 @@ where
 {
     let moved = light.rows(&(v - middle.v)) * (middle.h * S::constant(0.5) * S::EPSILON.sqrt());
     forces(middle.system, &(middle.q + moved), &middle.v)
+}
+
+/// The derivatives by q0 and q1 of the line for v1 in coordinates that the kinks alone hold.
+#[cold]
+#[inline(never)]
+pub(super) fn by_ends<L, S, const N: usize, const M: usize>(
+    light: &Massless<N>,
+    v: &SVector<S, N>,
+    middle: &Middle<'_, L, S, N>,
+) -> [SMatrix<S, N, N>; 2]
+where
+    L: DryFriction<N, M, Scalar = S>,
+    S: Scalar,
+{
+    let half = S::constant(0.5);
+    let forces = at_middle(light, v, middle);
+    let (own, of_middle) = (light.columns(&forces.d1) * S::EPSILON.sqrt(), forces.d1);
+    let of_velocity = forces.d2 / middle.h;
+    let line = |by: SMatrix<S, N, N>| -light.rows(&by) * (middle.h * half);
+    [line((of_middle + own) * half - of_velocity), line((of_middle - own) * half + of_velocity)]
 }
 
 /// Sizes of the terms of forces at q, as far as these and q tell.

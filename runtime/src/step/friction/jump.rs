@@ -30,7 +30,7 @@ use crate::system::{DryFriction, Slips};
 const ROUNDINGS: f64 = 64.0;
 
 /// By which h the impulse (h/2) F is the force F.
-const OF_FORCES: f64 = 2.0;
+pub(super) const OF_FORCES: f64 = 2.0;
 
 /// A jump.
 pub(super) struct Jump<S, const N: usize, const M: usize> {

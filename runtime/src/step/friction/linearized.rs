@@ -15,9 +15,12 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::element::elements;
-use super::end::{Middle, balance};
+use super::after_jump;
+use super::end::{End, Middle, balance, by_ends};
 use super::equation::{at_middle, direction_of};
+use super::jump::Jump;
 use super::line::{Line, leave};
+use super::linearized_jump::{LinearizedJump, MovedJump};
 use crate::numbers::Scalar;
 use crate::step::massless::Massless;
 use crate::step::{
@@ -29,7 +32,7 @@ use crate::system::{DryFriction, DryFrictionParameters, Parameters, Quantity};
 const ROUNDINGS: f64 = 64.0;
 
 /// How near to its limit a friction force is at its edge.
-const EDGE: f64 = 1e-9;
+pub(super) const EDGE: f64 = 1e-9;
 
 /// The share of friction in the equations on the segment of a step.
 pub struct LinearizedFriction<S: Scalar, const N: usize, const M: usize> {
@@ -50,6 +53,16 @@ pub struct LinearizedFriction<S: Scalar, const N: usize, const M: usize> {
     /// ∂/∂q of the equations for v1, which are balances of forces in coordinates without mass.
     end_by_q: SMatrix<S, N, N>,
     massless: Massless<N>,
+    /// Coordinates that the kinks alone hold.
+    light: Option<Light<S, N, M>>,
+}
+
+/// What coordinates that the kinks alone hold have beside: their line for v1 by q0 and q1, and the jump at
+/// the end.
+struct Light<S: Scalar, const N: usize, const M: usize> {
+    coordinates: Massless<N>,
+    by_ends: [SMatrix<S, N, N>; 2],
+    jump: LinearizedJump<S, N, M>,
 }
 
 /// s and what sticks at the slips of a step, and Σ D ∂s/∂u where a length slides.
@@ -86,6 +99,14 @@ impl<S: Scalar, const N: usize, const M: usize> State<S, N, M> {
             }
         }
         state
+    }
+
+    /// The forces of what slides.
+    fn slid(&self) -> SVector<S, M> {
+        let mut slid = self.forces;
+        let entries = slid.as_mut_slice().iter_mut().zip(self.sticks);
+        entries.filter(|(_, stick)| *stick).for_each(|(force, _)| *force = S::zero());
+        slid
     }
 
     /// Fails where a friction force that holds is at its limit.
@@ -152,10 +173,11 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
         at.sticks = end.held.sticks;
         at.require_off_edge(L::ELEMENTS)?;
         let l = system.later(h, |system| system.lagrangian_derivatives(&q1, &end.v));
-        let of_end = system.later(h * half, |system| {
+        let (of_end, by_ends) = system.later(h * half, |system| {
             let middle = Middle { system, h, q: middle, v: segment.v };
             let massless = (&end.massless, &end.light);
-            system.later(h * half, |at_end| balance(at_end, massless, &q1, &end.v, &middle))
+            let line = system.later(h * half, |at_end| balance(at_end, massless, &q1, &end.v, &middle));
+            (line, end.light.are_any().then(|| by_ends(&end.light, &end.v, &middle)))
         });
         let second = Line::of(
             &(of_end.by_v + at.turning * at_end.by_velocity),
@@ -163,6 +185,17 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
             &at_end.by_velocity,
             &at.sticks,
         )?;
+        let light = by_ends.map(|by_ends| -> Result<_, StepError> {
+            if p0.is_some() {
+                require_no_jump(system, &segment.q0, &end)?;
+            }
+            let jump = after_jump(system, h, &q1, &end)?;
+            let slid = of_first.slid();
+            let v = end.light.without(&end.v);
+            let jump = system.later(h, |system| LinearizedJump::of(system, &end.light, &jump, &v, &slid))?;
+            Ok(Light { coordinates: end.light, by_ends, jump })
+        });
+        let light = light.transpose()?;
         let half_impulse = at.turning * (at_end.by_configuration * half) + curvature(&at.forces);
         let (mut half_slip, mut slip_by_q0) = (at_end.by_configuration * half, by_q0);
         leave(&mut half_slip, &at.sticks);
@@ -181,6 +214,7 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
             momentum_by_q: l.d12.transpose(),
             end_by_q: of_end.by_q,
             massless: end.massless,
+            light,
         };
         let q_by_p = linearized.first.solve(&SMatrix::identity(), &nalgebra::zero());
         Ok((q_by_p, linearized))
@@ -197,9 +231,17 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
         let q = self.first.solve(&right, &-(self.slip_by_q0 * start.q + moved.slip));
         let both = start.q + q;
         let w = self.massless.without(&(k.p1_by_q0 * start.q + k.p1_by_q1 * q + moved.p1)) - moved.balance;
-        let right = w - self.end_by_q * q - self.half_impulse * both;
+        let mut right = w - self.end_by_q * q - self.half_impulse * both;
+        if let Some(Light { coordinates, by_ends: [by_q0, by_q1], .. }) = &self.light {
+            // Momenta have the forces at the middle.
+            right += coordinates.rows(&moved.p1) - by_q0 * start.q - by_q1 * q;
+        }
         let v = self.second.solve(&right, &-(self.half_slip * both + moved.end_slip));
         let p = self.mass * v + self.momentum_by_q * q + moved.momentum;
+        let q = match &self.light {
+            Some(light) => q + light.jump.by(&q, &v, &moved.jump),
+            None => q,
+        };
         StepError::require_finite(&q, Quantity::Derivatives)?;
         StepError::require_finite(&p, Quantity::Derivatives)?;
         Ok(StateBy { q, p })
@@ -212,12 +254,17 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
         Ok(PhaseMatrix { q_by_q: by_q.q, p_by_q: by_q.p, q_by_p: by_p.q, p_by_p: by_p.p })
     }
 
+    /// By what moves the momenta, and the forces at (q, v) of the end.
     pub(super) fn answer<const P: usize>(
         &self,
         k: &LegendreDerivatives<S, N>,
         momenta: &MomentaBy<S, N, P>,
+        at_end: impl Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, P>,
     ) -> Result<StateBy<S, N, P>, StepError> {
-        let moved = Moved { p0: momenta.p0, p1: momenta.p1, ..Moved::none() };
+        let mut moved = Moved { p0: momenta.p0, p1: momenta.p1, ..Moved::none() };
+        if let Some(light) = &self.light {
+            moved.jump.balance = -light.jump.at(at_end);
+        }
         self.carried(k, &StateBy { q: nalgebra::zero(), p: nalgebra::zero() }, &moved)
     }
 
@@ -252,7 +299,8 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
                 };
                 l.d1 + smooth + system.force_by_parameters(&q1, &self.v)
             };
-            (l.d2, self.massless.balance_by(&l.d2, forces, half))
+            let balance = self.massless.balance_by(&l.d2, forces, half);
+            (l.d2, self.light.as_ref().map_or(balance, |light| light.coordinates.without(&balance)))
         });
         let moved = Moved {
             p0: momenta.p0 + impulse,
@@ -261,9 +309,31 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
             balance: balance + end_impulse,
             end_slip,
             momentum,
+            jump: self.light.as_ref().map_or_else(MovedJump::none, |light| {
+                system.later(segment.h, |system| light.jump.by_parameters(system))
+            }),
         };
         self.carried(k, &StateBy { q: nalgebra::zero(), p: nalgebra::zero() }, &moved)
     }
+}
+
+/// Fails where a step jumps at its start, at the least change of which it moves otherwise.
+fn require_no_jump<L, S, const N: usize, const M: usize>(
+    system: &L,
+    q: &SVector<S, N>,
+    end: &End<S, N, M>,
+) -> Result<(), StepError>
+where
+    L: DryFriction<N, M, Scalar = S>,
+    S: Scalar,
+{
+    let v = end.light.without(&end.v);
+    let jump = Jump::<S, N, M>::of(system, &end.light, q, &v)?;
+    if jump.is_one(system, &end.light, &v) {
+        let component = jump.held.sticks.iter().position(|stick| !stick).unwrap_or(0);
+        return Err(StepError::AtLimitOfFriction { component });
+    }
+    Ok(())
 }
 
 /// The derivatives of the equations by what moves them at fixed ends.
@@ -277,6 +347,8 @@ struct Moved<S, const N: usize, const M: usize, const K: usize> {
     end_slip: SMatrix<S, M, K>,
     /// ∂L/∂v at fixed (q1, v1).
     momentum: SMatrix<S, N, K>,
+    /// The jump at the end.
+    jump: MovedJump<S, N, M, K>,
 }
 
 impl<S: Scalar, const N: usize, const M: usize, const K: usize> Moved<S, N, M, K> {
@@ -289,6 +361,7 @@ impl<S: Scalar, const N: usize, const M: usize, const K: usize> Moved<S, N, M, K
             balance: of_momenta,
             end_slip: of_slips,
             momentum: of_momenta,
+            jump: MovedJump::none(),
         }
     }
 }

@@ -17,10 +17,10 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::element::elements;
+use super::element::{Element, elements};
 use super::end::{forces, light_among, terms};
 use super::equation::direction_of;
-use super::jump::Jump;
+use super::jump::{Jump, OF_FORCES};
 use super::line::Line as Bordered;
 use super::root::{Line, root};
 use super::set::Held;
@@ -28,9 +28,6 @@ use super::sticking::sticking;
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::step::massless::Massless;
 use crate::system::{DryFriction, Slips, is_timed};
-
-/// By which h the impulse (h/2) F is the force F.
-const OF_FORCES: f64 = 2.0;
 
 /// The longest time over which a force is seen to change; each next one is half as long.
 const LONGEST: f64 = 1.0 / 4096.0;
@@ -167,7 +164,7 @@ where
             slip: -slips.values,
             sticks: held.sticks,
         };
-        line.release(L::ELEMENTS, &held.forces);
+        line.release(L::ELEMENTS, &held.forces, |_| true);
         let stiffness = self.stiffness();
         let bordered = Bordered::of(&self.light.block(&stiffness), &line.directions, &line.rows, &line.sticks);
         let right = -self.light.rows(&(stiffness * others + self.by_time()));
@@ -187,17 +184,23 @@ pub(super) struct Released<S, const N: usize, const M: usize> {
 }
 
 impl<S: Scalar, const N: usize, const M: usize> Released<S, N, M> {
-    /// Releases what slides, along the forces s: across its way a length neither slips nor bears less.
-    pub(super) fn release(&mut self, sizes: &[usize], forces: &SVector<S, M>) {
-        for element in elements(sizes) {
-            if element.head(&self.sticks) == Some(true) {
-                continue;
+    /// Releases what slides, along the forces s: across its way a length that `is_rigid` neither slips nor
+    /// bears less.
+    pub(super) fn release(
+        &mut self,
+        sizes: &[usize],
+        forces: &SVector<S, M>,
+        is_rigid: impl Fn(Element) -> bool,
+    ) {
+        let sticks = self.sticks;
+        for element in elements(sizes).filter(|element| element.head(&sticks) == Some(false)) {
+            if element.size > 1 && is_rigid(element) {
+                let s = element.part(forces);
+                self.directions -= self.directions * s * s.transpose();
+                self.rows -= s * (s.transpose() * self.rows);
+                self.slip -= s * s.dot(&self.slip);
+                element.of_mut(&mut self.sticks).for_each(|stick| *stick = true);
             }
-            let s = element.part(forces);
-            self.directions -= self.directions * s * s.transpose();
-            self.rows -= s * (s.transpose() * self.rows);
-            self.slip -= s * s.dot(&self.slip);
-            element.of_mut(&mut self.sticks).for_each(|stick| *stick = element.size > 1);
         }
         // What moves nothing here is no equation.
         let sizes = self.rows.abs().column_sum();
