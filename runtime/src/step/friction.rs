@@ -30,10 +30,11 @@ mod slipping;
 mod sticking;
 mod unturned;
 
+use core::cell::Cell;
+
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{Factored, Scalar};
-use crate::step::massless::Massless;
 use crate::step::{
     Border, BorderParameters, BoundedStep, ClosedForm, Discrete, LegendreDerivatives, Momenta, MomentaBy,
     PhaseMatrix, Segment, State, StateBy, Step, StepError, step_by, step_within_by,
@@ -51,71 +52,78 @@ pub(crate) use slipping::{Slip, Slipping};
 #[derive(Clone, Copy, Debug)]
 pub struct Friction<const M: usize>;
 
-/// A step that was solved for, and its end.
-type Solved<S, const N: usize, const M: usize> = (BoundedStep<S, N>, End<S, N, M>);
-
-/// The step by the sets of what sticks and what slides, where `solve` has v̄ of its equation.
-#[inline(always)]
+/// The step by the sets of what sticks and what slides; `from_jump` where its start is one that a jump led
+/// to.
+#[inline(never)]
 fn by_sets<L, R, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
     h: L::Scalar,
-    solve: impl Fn(
-        &WithFriction<'_, L, R, N, M>,
-        &State<L::Scalar, N>,
-    ) -> Result<BoundedStep<L::Scalar, N>, StepError>,
-) -> Result<BoundedStep<L::Scalar, N>, StepError>
-where
-    L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M>,
-{
-    let from = |state: &State<L::Scalar, N>| {
-        let equation = WithFriction::<L, R, N, M>::new(system, state);
-        let step = solve(&equation, state).map_err(|error| equation.explained(error))?;
-        held::<L, R, N, M>(system, state, step, h, &equation)
-    };
-    let solved = from(state)?;
-    if solved.1.light.are_any() { jumping(system, state, h, solved, &from) } else { Ok(solved.0) }
-}
-
-/// The step by the sets, with its Newton iterations.
-#[inline(never)]
-fn of_sets<L, R, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-    h: L::Scalar,
     guess: Option<&SVector<L::Scalar, N>>,
+    from_jump: bool,
 ) -> Result<Step<L::Scalar, N>, StepError>
 where
     L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M>,
 {
-    let solved = by_sets::<L, R, N, M>(system, state, h, |equation, state| {
-        step_by(system, equation, state, h, guess).map(|step| BoundedStep { step, converged: true })
-    });
-    solved.map(|solved| solved.step)
+    let equation = WithFriction::<L, R, N, M>::new(system, state);
+    let step = step_by(system, &equation, state, h, guess).map_err(|error| equation.explained(error))?;
+    let (step, end) = held::<L, R, N, M>(system, state, step, h, &equation)?;
+    if end.light.are_any() {
+        return jumping(system, (state, step), h, (&end, from_jump), &|state| {
+            by_sets::<L, R, N, M>(system, state, h, guess, true)
+        });
+    }
+    Ok(step)
 }
 
-/// The step with the jumps at its start and its end, from that without; `from` solves for it.
+/// [`by_sets`] by so many iterations at most.
+fn by_sets_within<L, R, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    h: L::Scalar,
+    (guess, iterations): (Option<&SVector<L::Scalar, N>>, u32),
+    from_jump: bool,
+) -> Result<BoundedStep<L::Scalar, N>, StepError>
+where
+    L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M>,
+{
+    let equation = WithFriction::<L, R, N, M>::new(system, state);
+    let BoundedStep { step, converged } = step_within_by(system, &equation, state, h, guess, iterations)
+        .map_err(|error| equation.explained(error))?;
+    let (mut step, end) = held::<L, R, N, M>(system, state, step, h, &equation)?;
+    let converged = Cell::new(converged);
+    if end.light.are_any() {
+        step = jumping(system, (state, step), h, (&end, from_jump), &|state| {
+            let again = by_sets_within::<L, R, N, M>(system, state, h, (guess, iterations), true)?;
+            converged.set(again.converged);
+            Ok(again.step)
+        })?;
+    }
+    Ok(BoundedStep { step, converged: converged.get() })
+}
+
+/// The step with the jumps at its start and its end, from that without; `from` takes one from another state.
 #[cold]
 #[inline(never)]
 fn jumping<L, const N: usize, const M: usize>(
     system: &L,
-    state: &State<L::Scalar, N>,
+    (state, step): (&State<L::Scalar, N>, Step<L::Scalar, N>),
     h: L::Scalar,
-    mut solved: Solved<L::Scalar, N, M>,
-    from: &dyn Fn(&State<L::Scalar, N>) -> Result<Solved<L::Scalar, N, M>, StepError>,
-) -> Result<BoundedStep<L::Scalar, N>, StepError>
+    (end, from_jump): (&End<L::Scalar, N, M>, bool),
+    from: &dyn Fn(&State<L::Scalar, N>) -> Result<Step<L::Scalar, N>, StepError>,
+) -> Result<Step<L::Scalar, N>, StepError>
 where
     L: DryFriction<N, M>,
 {
-    let light = solved.1.light;
-    let v = light.without(&state.velocity(system)?);
-    let jump = Jump::<_, N, M>::of(system, &light, &state.q, &v)?;
-    if jump.is_one(system, &light, &v) {
-        solved = from(&State { q: jump.q, ..*state })?;
+    if !from_jump {
+        let v = end.light.without(&state.velocity(system)?);
+        let jump = Jump::<_, N, M>::of(system, &end.light, &state.q, &v)?;
+        if jump.is_one(system, &end.light, &v) {
+            return from(&State { q: jump.q, ..*state });
+        }
     }
-    let (mut step, end) = solved;
-    step.step.state.q = after_jump(system, h, &step.step.state.q, &end)?.q;
-    Ok(step)
+    let q = after_jump(system, h, &step.state.q, end)?.q;
+    Ok(Step { state: State { q, ..step.state }, ..step })
 }
 
 /// The jump at the end of a step of size h that leads to q1.
@@ -131,14 +139,15 @@ where
     system.later(h, |system| Jump::of(system, &end.light, q1, &end.light.without(&end.v)))
 }
 
-/// The step that was solved for up to the momentum at its end.
+/// The step that was solved for up to the momentum at its end, and that end.
+#[inline(always)]
 fn held<L, R, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
-    BoundedStep { step, converged }: BoundedStep<L::Scalar, N>,
+    step: Step<L::Scalar, N>,
     h: L::Scalar,
     equation: &WithFriction<'_, L, R, N, M>,
-) -> Result<Solved<L::Scalar, N, M>, StepError>
+) -> Result<(Step<L::Scalar, N>, End<L::Scalar, N, M>), StepError>
 where
     L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M>,
 {
@@ -153,12 +162,12 @@ where
         let middle = state.q + v * half;
         // The slips are linear in v: at rest they are those of what moves by itself, a belt.
         let slips = system.later(half, |system| system.slips(&middle, &nalgebra::zero()));
-        v = sticking(&slips, &v, &held, &Massless::none());
+        v = sticking(&slips, &v, &held);
         w = system.momenta(&Segment { q0: state.q, v, h }).p1;
     }
     let end = end(system, &Segment { q0: state.q, v, h }, &w)?;
     let step = Step::completed(state, h, v, &Momenta { p0: state.p, p1: end.p }, step.report)?;
-    Ok((BoundedStep { step, converged }, end))
+    Ok((step, end))
 }
 
 /// The velocity at the end of a segment that is solved for, where p1 would be `w` without friction.
@@ -195,7 +204,7 @@ where
     ) -> Result<Step<L::Scalar, N>, StepError> {
         match guess.and_then(|guess| unturned::step::<L, R, N, M>(system, state, h, guess)) {
             Some(step) => Ok(step),
-            None => of_sets::<L, R, N, M>(system, state, h, guess),
+            None => by_sets::<L, R, N, M>(system, state, h, guess, false),
         }
     }
 
@@ -206,9 +215,7 @@ where
         guess: Option<&SVector<L::Scalar, N>>,
         iterations: u32,
     ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
-        by_sets::<L, R, N, M>(system, state, h, |equation, state| {
-            step_within_by(system, equation, state, h, guess, iterations)
-        })
+        by_sets_within::<L, R, N, M>(system, state, h, (guess, iterations), false)
     }
 
     /// The general way solves it.

@@ -15,7 +15,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::root::{Line, root};
 use super::set::Held;
-use super::sticking::sticking;
+use super::sticking::{sticking, sticking_in};
 use crate::numbers::{CovectorDerivatives, NewtonMatrix, Scalar};
 use crate::step::massless::{Balance, Massless};
 use crate::step::{StepError, require_regular};
@@ -84,13 +84,16 @@ where
         }
         Ok(Some(Line { left: line.value - w, factored, slips, beside, is_linear }))
     })?;
-    let (mut v, held) = (found.x, found.held);
-    let mut p = massless.without(&(w - found.impulse));
-    if held.sticks.contains(&true) {
-        v = sticking(&middle.system.slips(&middle.q, &nalgebra::zero()), &v, &held, &light);
-        p = at_end.lagrangian_gradient(q1, &v).d2;
+    let (v, held) = (found.x, found.held);
+    if !held.sticks.contains(&true) {
+        return Ok(End { v, held, p: massless.without(&(w - found.impulse)), massless, light });
     }
-    Ok(End { v, held, p, massless, light })
+    let slips = middle.system.slips(&middle.q, &nalgebra::zero());
+    let v = match light.are_any() {
+        true => sticking_in(&light, &slips, &v, &held),
+        false => sticking(&slips, &v, &held),
+    };
+    Ok(End { v, held, p: at_end.lagrangian_gradient(q1, &v).d2, massless, light })
 }
 
 /// The equations for v1 without the kinks: in coordinates without mass the impulses of half a step.

@@ -74,7 +74,7 @@ impl<S: Scalar, const N: usize, const M: usize> Jump<S, N, M> {
         let mut by = found.x;
         if found.held.sticks.contains(&true) {
             let at_rest = slips_of(system, light, &(q + by), &nalgebra::zero());
-            by = sticking(&at_rest, &by, &found.held, light);
+            by = sticking(&at_rest, &by, &found.held);
         }
         Ok(Self { q: q + by, by, held: found.held })
     }

@@ -185,12 +185,12 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
             &at_end.by_velocity,
             &at.sticks,
         )?;
+        let slid = of_first.slid();
         let light = by_ends.map(|by_ends| -> Result<_, StepError> {
             if p0.is_some() {
-                require_no_jump(system, &segment.q0, &end)?;
+                require_no_jump(system, &segment.q0, &end, &slid)?;
             }
             let jump = after_jump(system, h, &q1, &end)?;
-            let slid = of_first.slid();
             let v = end.light.without(&end.v);
             let jump = system.later(h, |system| LinearizedJump::of(system, &end.light, &jump, &v, &slid))?;
             Ok(Light { coordinates: end.light, by_ends, jump })
@@ -317,11 +317,13 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
     }
 }
 
-/// Fails where a step jumps at its start, at the least change of which it moves otherwise.
+/// Fails where a step jumps at its start, or would by the least change: a force there is at its limit, and the
+/// element does not go on to slide as it `slid`.
 fn require_no_jump<L, S, const N: usize, const M: usize>(
     system: &L,
     q: &SVector<S, N>,
     end: &End<S, N, M>,
+    slid: &SVector<S, M>,
 ) -> Result<(), StepError>
 where
     L: DryFriction<N, M, Scalar = S>,
@@ -329,9 +331,13 @@ where
 {
     let v = end.light.without(&end.v);
     let jump = Jump::<S, N, M>::of(system, &end.light, q, &v)?;
-    if jump.is_one(system, &end.light, &v) {
-        let component = jump.held.sticks.iter().position(|stick| !stick).unwrap_or(0);
-        return Err(StepError::AtLimitOfFriction { component });
+    let is_one = jump.is_one(system, &end.light, &v);
+    for element in elements(L::ELEMENTS) {
+        let is_at_limit = element.length(&jump.held.forces) > S::one() - S::constant(EDGE);
+        let goes_on = element.dot(slid, &jump.held.forces) > S::zero();
+        if is_at_limit && (is_one || !goes_on) {
+            return Err(StepError::AtLimitOfFriction { component: element.first });
+        }
     }
     Ok(())
 }

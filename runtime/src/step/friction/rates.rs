@@ -24,7 +24,7 @@ use super::jump::{Jump, OF_FORCES};
 use super::line::Line as Bordered;
 use super::root::{Line, root};
 use super::set::Held;
-use super::sticking::sticking;
+use super::sticking::sticking_in;
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::step::massless::Massless;
 use crate::system::{DryFriction, Slips, is_timed};
@@ -64,7 +64,7 @@ where
     }
     let (v, held) = found;
     let v = if light.are_any() { motion.in_the_limit(&v, &held).unwrap_or(v) } else { v };
-    Some(massless.rows(&sticking(&motion.slips(&start), &v, &held, &light)) + start)
+    Some(massless.rows(&sticking_in(&light, &motion.slips(&start), &v, &held)) + start)
 }
 
 /// Where the velocities without mass are looked for.

@@ -43,6 +43,7 @@ pub(super) struct Root<S, const N: usize, const M: usize> {
 ///
 /// # Errors
 /// [`StepError::NotConverged`]; those of friction.
+#[inline(always)]
 pub(super) fn root<S: Scalar, F: Factored<S, N>, const N: usize, const M: usize>(
     sizes: &[usize],
     start: &SVector<S, N>,

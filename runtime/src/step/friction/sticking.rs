@@ -7,8 +7,11 @@ use crate::numbers::Scalar;
 use crate::step::massless::Massless;
 use crate::system::Slips;
 
+/// By how much larger coefficients count as the largest ones: a power of two, which rounds nothing.
+const LARGER: f64 = 1024.0;
+
 /// The velocity nearby at which elements that stick have no slip to the last bit: the slips that stick are
-/// solved for as many velocities, those with the largest coefficients, `first` if they can be. The `slips` are those at rest, of what
+/// solved for as many velocities, those with the largest coefficients. The `slips` are those at rest, of what
 /// moves by itself, a belt.
 #[cold]
 #[inline(never)]
@@ -16,9 +19,7 @@ pub(super) fn sticking<S: Scalar, const N: usize, const M: usize>(
     slips: &Slips<S, N, M>,
     v: &SVector<S, N>,
     held: &Held<S, M>,
-    first: &Massless<N>,
 ) -> SVector<S, N> {
-    let is_first = first.rows(&SVector::repeat(S::one()));
     // Rows of ∂u/∂v beside −u, each over its largest coefficient.
     let mut rows = [([S::zero(); N], S::zero()); M];
     for (i, (row, right)) in rows.iter_mut().enumerate() {
@@ -36,14 +37,13 @@ pub(super) fn sticking<S: Scalar, const N: usize, const M: usize>(
     let mut pivots = [None; M];
     for _ in 0..M {
         let mut best = None;
-        let mut most = S::zero();
+        // Redundant rows are left with rounding alone.
+        let mut most = S::EPSILON.sqrt();
         for (i, (row, _)) in rows.iter().enumerate() {
-            for (j, (entry, is_first)) in row.iter().zip(is_first.as_slice()).enumerate() {
+            for (j, entry) in row.iter().enumerate() {
                 let is_taken = pivots.iter().flatten().any(|pivot| *pivot == j);
-                // Redundant rows are left with rounding alone.
-                let size = if entry.abs() > S::EPSILON.sqrt() { entry.abs() + *is_first } else { S::zero() };
-                if pivots.get(i) == Some(&None) && !is_taken && size > most {
-                    (best, most) = (Some((i, j)), size);
+                if pivots.get(i) == Some(&None) && !is_taken && entry.abs() > most {
+                    (best, most) = (Some((i, j)), entry.abs());
                 }
             }
         }
@@ -73,6 +73,23 @@ pub(super) fn sticking<S: Scalar, const N: usize, const M: usize>(
         }
     }
     exact
+}
+
+/// [`sticking`] by velocities of these coordinates, as far as they can: those of others are known to more
+/// digits.
+#[cold]
+#[inline(never)]
+pub(super) fn sticking_in<S: Scalar, const N: usize, const M: usize>(
+    light: &Massless<N>,
+    slips: &Slips<S, N, M>,
+    v: &SVector<S, N>,
+    held: &Held<S, M>,
+) -> SVector<S, N> {
+    let scaled = |v: &SVector<S, N>, by: f64| light.without(v) + light.rows(v) * S::constant(by);
+    let by_velocity = &slips.by_velocity;
+    let by_velocity = by_velocity + light.columns(by_velocity) * S::constant(LARGER - 1.0);
+    let found = sticking(&Slips { by_velocity, ..*slips }, &scaled(v, 1.0 / LARGER), held);
+    scaled(&found, LARGER)
 }
 
 fn largest_of<'a, S: Scalar>(entries: impl Iterator<Item = &'a S>) -> S {
