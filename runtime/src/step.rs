@@ -61,7 +61,7 @@ pub use driven::{DiscreteDriven, DiscreteParameters};
 pub use error::StepError;
 pub use flow::{BoundedFlow, Flow, Memory};
 pub use force_work::{EnergyExchange, ForceWork};
-pub use free::Free;
+pub use free::{Ending, Free, OfFormula};
 pub use friction::{Friction, massless_velocity};
 pub(crate) use friction::{Slip, Slipping};
 pub use fused::Fused;

@@ -16,21 +16,19 @@
 //! Elements that stick are a border of W, as constraints of velocity are; which of them do, [`set`] finds.
 //! The solver of every other step is given F, whose root is the step, with the matrix W.
 
+mod balanced;
 mod element;
 mod end;
 mod equation;
-mod jump;
 mod line;
 mod linearized;
-mod linearized_jump;
+mod linearized_balance;
 mod rates;
 mod root;
 mod set;
 mod slipping;
 mod sticking;
 mod unturned;
-
-use core::cell::Cell;
 
 use nalgebra::{SMatrix, SVector};
 
@@ -40,9 +38,9 @@ use crate::step::{
     PhaseMatrix, Segment, State, StateBy, Step, StepError, step_by, step_within_by,
 };
 use crate::system::{DryFriction, DryFrictionParameters, Parameters};
+use balanced::at_end;
 use end::{End, Middle, velocity};
 use equation::WithFriction;
-use jump::Jump;
 use linearized::LinearizedFriction;
 pub use rates::massless_velocity;
 use sticking::sticking;
@@ -52,94 +50,23 @@ pub(crate) use slipping::{Slip, Slipping};
 #[derive(Clone, Copy, Debug)]
 pub struct Friction<const M: usize>;
 
-/// The step by the sets of what sticks and what slides; `from_jump` where its start is one that a jump led
-/// to.
+/// The step by the sets of what sticks and what slides.
 #[inline(never)]
 fn by_sets<L, R, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
     h: L::Scalar,
     guess: Option<&SVector<L::Scalar, N>>,
-    from_jump: bool,
 ) -> Result<Step<L::Scalar, N>, StepError>
 where
     L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M>,
 {
     let equation = WithFriction::<L, R, N, M>::new(system, state);
     let step = step_by(system, &equation, state, h, guess).map_err(|error| equation.explained(error))?;
-    let (step, end) = held::<L, R, N, M>(system, state, step, h, &equation)?;
-    if end.light.are_any() {
-        return jumping(system, (state, step), h, (&end, from_jump), &|state| {
-            by_sets::<L, R, N, M>(system, state, h, guess, true)
-        });
-    }
-    Ok(step)
+    held::<L, R, N, M>(system, state, step, h, &equation)
 }
 
-/// [`by_sets`] by so many iterations at most.
-fn by_sets_within<L, R, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-    h: L::Scalar,
-    (guess, iterations): (Option<&SVector<L::Scalar, N>>, u32),
-    from_jump: bool,
-) -> Result<BoundedStep<L::Scalar, N>, StepError>
-where
-    L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M>,
-{
-    let equation = WithFriction::<L, R, N, M>::new(system, state);
-    let BoundedStep { step, converged } = step_within_by(system, &equation, state, h, guess, iterations)
-        .map_err(|error| equation.explained(error))?;
-    let (mut step, end) = held::<L, R, N, M>(system, state, step, h, &equation)?;
-    let converged = Cell::new(converged);
-    if end.light.are_any() {
-        step = jumping(system, (state, step), h, (&end, from_jump), &|state| {
-            let again = by_sets_within::<L, R, N, M>(system, state, h, (guess, iterations), true)?;
-            converged.set(again.converged);
-            Ok(again.step)
-        })?;
-    }
-    Ok(BoundedStep { step, converged: converged.get() })
-}
-
-/// The step with the jumps at its start and its end, from that without; `from` takes one from another state.
-#[cold]
-#[inline(never)]
-fn jumping<L, const N: usize, const M: usize>(
-    system: &L,
-    (state, step): (&State<L::Scalar, N>, Step<L::Scalar, N>),
-    h: L::Scalar,
-    (end, from_jump): (&End<L::Scalar, N, M>, bool),
-    from: &dyn Fn(&State<L::Scalar, N>) -> Result<Step<L::Scalar, N>, StepError>,
-) -> Result<Step<L::Scalar, N>, StepError>
-where
-    L: DryFriction<N, M>,
-{
-    if !from_jump {
-        let v = end.light.without(&state.velocity(system)?);
-        let jump = Jump::<_, N, M>::of(system, &end.light, &state.q, &v)?;
-        if jump.is_one(system, &end.light, &v) {
-            return from(&State { q: jump.q, ..*state });
-        }
-    }
-    let q = after_jump(system, h, &step.state.q, end)?.q;
-    Ok(Step { state: State { q, ..step.state }, ..step })
-}
-
-/// The jump at the end of a step of size h that leads to q1.
-fn after_jump<L, const N: usize, const M: usize>(
-    system: &L,
-    h: L::Scalar,
-    q1: &SVector<L::Scalar, N>,
-    end: &End<L::Scalar, N, M>,
-) -> Result<Jump<L::Scalar, N, M>, StepError>
-where
-    L: DryFriction<N, M>,
-{
-    system.later(h, |system| Jump::of(system, &end.light, q1, &end.light.without(&end.v)))
-}
-
-/// The step that was solved for up to the momentum at its end, and that end.
+/// The step that was solved for up to its end.
 #[inline(always)]
 fn held<L, R, const N: usize, const M: usize>(
     system: &L,
@@ -147,7 +74,7 @@ fn held<L, R, const N: usize, const M: usize>(
     step: Step<L::Scalar, N>,
     h: L::Scalar,
     equation: &WithFriction<'_, L, R, N, M>,
-) -> Result<(Step<L::Scalar, N>, End<L::Scalar, N, M>), StepError>
+) -> Result<Step<L::Scalar, N>, StepError>
 where
     L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M>,
 {
@@ -165,9 +92,13 @@ where
         v = sticking(&slips, &v, &held);
         w = system.momenta(&Segment { q0: state.q, v, h }).p1;
     }
-    let end = end(system, &Segment { q0: state.q, v, h }, &w)?;
-    let step = Step::completed(state, h, v, &Momenta { p0: state.p, p1: end.p }, step.report)?;
-    Ok((step, end))
+    let segment = Segment { q0: state.q, v, h };
+    let end = end(system, &segment, &w)?;
+    let mut step = Step::completed(state, h, v, &Momenta { p0: state.p, p1: end.p }, step.report)?;
+    if end.light.are_any() {
+        step.state.q = at_end(system, &segment, &end)?.q;
+    }
+    Ok(step)
 }
 
 /// The velocity at the end of a segment that is solved for, where p1 would be `w` without friction.
@@ -204,7 +135,7 @@ where
     ) -> Result<Step<L::Scalar, N>, StepError> {
         match guess.and_then(|guess| unturned::step::<L, R, N, M>(system, state, h, guess)) {
             Some(step) => Ok(step),
-            None => by_sets::<L, R, N, M>(system, state, h, guess, false),
+            None => by_sets::<L, R, N, M>(system, state, h, guess),
         }
     }
 
@@ -215,7 +146,11 @@ where
         guess: Option<&SVector<L::Scalar, N>>,
         iterations: u32,
     ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
-        by_sets_within::<L, R, N, M>(system, state, h, (guess, iterations), false)
+        let equation = WithFriction::<L, R, N, M>::new(system, state);
+        let BoundedStep { step, converged } = step_within_by(system, &equation, state, h, guess, iterations)
+            .map_err(|error| equation.explained(error))?;
+        let step = held::<L, R, N, M>(system, state, step, h, &equation)?;
+        Ok(BoundedStep { step, converged })
     }
 
     /// The general way solves it.

@@ -97,12 +97,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
         }
         let residual = system.lagrangian_gradient(&self.q, &v).d2 - self.p;
         let (_, _, is_root) = held_against(&residual, &estimated_floor(&self.p, &mass, &v));
-        if is_root {
-            return Ok(v);
-        }
-        let none = Massless::none();
-        let balance = |q: &SVector<S, N>, v: &SVector<S, N>| none.balance_at(system, q, v, S::constant(1.0));
-        self.velocity_by_newton(system, &none, &balance, None)
+        if is_root { Ok(v) } else { self.velocity_by_newton(system, &Massless::none(), None) }
     }
 
     /// Where ∂²L/∂v² is singular or not finite at rest.
@@ -127,21 +122,33 @@ impl<S: Scalar, const N: usize> State<S, N> {
         if massless.are_any() {
             // Dry friction acts beside velocities with mass.
             let at_rest = |q: &SVector<S, N>, v: &SVector<S, N>| massless.at_rest(system, q, v);
-            if let Ok(others) = self.velocity_by_newton(system, &massless, &at_rest, None)
+            if let Ok(others) = self.velocity_of(system, &massless, &at_rest, None)
                 && let Some(v) = system.massless_velocity(&self.q, &others)
             {
                 return Ok(v);
             }
         }
-        let balance =
-            |q: &SVector<S, N>, v: &SVector<S, N>| massless.balance_at(system, q, v, S::constant(1.0));
-        self.velocity_by_newton(system, &massless, &balance, found.err())
+        self.velocity_by_newton(system, &massless, found.err())
     }
 
     /// By Newton's method from rest or, with the `error` that this led to, from away from it.
     #[cold]
     #[inline(never)]
     fn velocity_by_newton<L: Lagrangian<N, Scalar = S> + ?Sized>(
+        &self,
+        system: &L,
+        massless: &Massless<N>,
+        error: Option<StepError>,
+    ) -> Result<SVector<S, N>, StepError> {
+        let balance =
+            |q: &SVector<S, N>, v: &SVector<S, N>| massless.balance_at(system, q, v, S::constant(1.0));
+        self.velocity_of(system, massless, &balance, error)
+    }
+
+    /// [`velocity_by_newton`](Self::velocity_by_newton), of these equations.
+    #[cold]
+    #[inline(never)]
+    fn velocity_of<L: Lagrangian<N, Scalar = S> + ?Sized>(
         &self,
         system: &L,
         massless: &Massless<N>,

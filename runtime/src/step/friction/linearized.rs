@@ -15,12 +15,11 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::element::elements;
-use super::after_jump;
-use super::end::{End, Middle, balance, by_ends};
+use super::balanced::at_end;
+use super::end::{Middle, balance, by_ends};
 use super::equation::{at_middle, direction_of};
-use super::jump::Jump;
 use super::line::{Line, leave};
-use super::linearized_jump::{LinearizedJump, MovedJump};
+use super::linearized_balance::{LinearizedBalance, MovedBalance};
 use crate::numbers::Scalar;
 use crate::step::massless::Massless;
 use crate::step::{
@@ -32,7 +31,7 @@ use crate::system::{DryFriction, DryFrictionParameters, Parameters, Quantity};
 const ROUNDINGS: f64 = 64.0;
 
 /// How near to its limit a friction force is at its edge.
-pub(super) const EDGE: f64 = 1e-9;
+const EDGE: f64 = 1e-9;
 
 /// The share of friction in the equations on the segment of a step.
 pub struct LinearizedFriction<S: Scalar, const N: usize, const M: usize> {
@@ -57,23 +56,23 @@ pub struct LinearizedFriction<S: Scalar, const N: usize, const M: usize> {
     light: Option<Light<S, N, M>>,
 }
 
-/// What coordinates that the kinks alone hold have beside: their line for v1 by q0 and q1, and the jump at
-/// the end.
+/// What coordinates that the kinks alone hold have beside: their line for v1 by q0 and q1, and their
+/// places at the end.
 struct Light<S: Scalar, const N: usize, const M: usize> {
     coordinates: Massless<N>,
     by_ends: [SMatrix<S, N, N>; 2],
-    jump: LinearizedJump<S, N, M>,
+    balance: LinearizedBalance<S, N, M>,
 }
 
 /// s and what sticks at the slips of a step, and Σ D ∂s/∂u where a length slides.
-struct State<S, const N: usize, const M: usize> {
-    forces: SVector<S, M>,
-    sticks: [bool; M],
-    turning: SMatrix<S, N, M>,
+pub(super) struct State<S, const N: usize, const M: usize> {
+    pub(super) forces: SVector<S, M>,
+    pub(super) sticks: [bool; M],
+    pub(super) turning: SMatrix<S, N, M>,
 }
 
 impl<S: Scalar, const N: usize, const M: usize> State<S, N, M> {
-    fn of(
+    pub(super) fn of(
         sizes: &[usize],
         slips: &SVector<S, M>,
         directions: &SMatrix<S, N, M>,
@@ -101,16 +100,8 @@ impl<S: Scalar, const N: usize, const M: usize> State<S, N, M> {
         state
     }
 
-    /// The forces of what slides.
-    fn slid(&self) -> SVector<S, M> {
-        let mut slid = self.forces;
-        let entries = slid.as_mut_slice().iter_mut().zip(self.sticks);
-        entries.filter(|(_, stick)| *stick).for_each(|(force, _)| *force = S::zero());
-        slid
-    }
-
     /// Fails where a friction force that holds is at its limit.
-    fn require_off_edge(&self, sizes: &[usize]) -> Result<(), StepError> {
+    pub(super) fn require_off_edge(&self, sizes: &[usize]) -> Result<(), StepError> {
         for element in elements(sizes) {
             let is_stuck = element.head(&self.sticks) == Some(true);
             if is_stuck && element.length(&self.forces) > S::one() - S::constant(EDGE) {
@@ -167,8 +158,8 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
         let w = k.momenta.p1;
         let (middle, q1) = (segment.q0 + segment.v * (h * half), segment.q0 + segment.v * h);
         let end = super::end(system, segment, &w)?;
-        let at_end = system.later(h * half, |system| system.slips(&middle, &end.v));
-        let mut at = State::of(L::ELEMENTS, &at_end.values, &directions, &terms(&end.v));
+        let slips_at_end = system.later(h * half, |system| system.slips(&middle, &end.v));
+        let mut at = State::of(L::ELEMENTS, &slips_at_end.values, &directions, &terms(&end.v));
         at.forces = end.held.forces;
         at.sticks = end.held.sticks;
         at.require_off_edge(L::ELEMENTS)?;
@@ -180,24 +171,21 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
             (line, end.light.are_any().then(|| by_ends(&end.light, &end.v, &middle)))
         });
         let second = Line::of(
-            &(of_end.by_v + at.turning * at_end.by_velocity),
+            &(of_end.by_v + at.turning * slips_at_end.by_velocity),
             &directions,
-            &at_end.by_velocity,
+            &slips_at_end.by_velocity,
             &at.sticks,
         )?;
-        let slid = of_first.slid();
         let light = by_ends.map(|by_ends| -> Result<_, StepError> {
-            if p0.is_some() {
-                require_no_jump(system, &segment.q0, &end, &slid)?;
-            }
-            let jump = after_jump(system, h, &q1, &end)?;
-            let v = end.light.without(&end.v);
-            let jump = system.later(h, |system| LinearizedJump::of(system, &end.light, &jump, &v, &slid))?;
-            Ok(Light { coordinates: end.light, by_ends, jump })
+            let at = at_end(system, segment, &end)?;
+            let balance = system.later(h, |system| {
+                LinearizedBalance::of(system, &end.light, h * half, &at, &end.v)
+            })?;
+            Ok(Light { coordinates: end.light, by_ends, balance })
         });
         let light = light.transpose()?;
-        let half_impulse = at.turning * (at_end.by_configuration * half) + curvature(&at.forces);
-        let (mut half_slip, mut slip_by_q0) = (at_end.by_configuration * half, by_q0);
+        let half_impulse = at.turning * (slips_at_end.by_configuration * half) + curvature(&at.forces);
+        let (mut half_slip, mut slip_by_q0) = (slips_at_end.by_configuration * half, by_q0);
         leave(&mut half_slip, &at.sticks);
         leave(&mut slip_by_q0, &of_first.sticks);
         let linearized = Self {
@@ -239,7 +227,7 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
         let v = self.second.solve(&right, &-(self.half_slip * both + moved.end_slip));
         let p = self.mass * v + self.momentum_by_q * q + moved.momentum;
         let q = match &self.light {
-            Some(light) => q + light.jump.by(&q, &v, &moved.jump),
+            Some(light) => light.balance.by((&start.q, &q), &v, &moved.places),
             None => q,
         };
         StepError::require_finite(&q, Quantity::Derivatives)?;
@@ -263,7 +251,7 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
     ) -> Result<StateBy<S, N, P>, StepError> {
         let mut moved = Moved { p0: momenta.p0, p1: momenta.p1, ..Moved::none() };
         if let Some(light) = &self.light {
-            moved.jump.balance = -light.jump.at(at_end);
+            moved.places.balance = -light.balance.at(at_end);
         }
         self.carried(k, &StateBy { q: nalgebra::zero(), p: nalgebra::zero() }, &moved)
     }
@@ -309,37 +297,12 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
             balance: balance + end_impulse,
             end_slip,
             momentum,
-            jump: self.light.as_ref().map_or_else(MovedJump::none, |light| {
-                system.later(segment.h, |system| light.jump.by_parameters(system))
+            places: self.light.as_ref().map_or_else(MovedBalance::none, |light| {
+                system.later(segment.h, |system| light.balance.by_parameters(system))
             }),
         };
         self.carried(k, &StateBy { q: nalgebra::zero(), p: nalgebra::zero() }, &moved)
     }
-}
-
-/// Fails where a step jumps at its start, or would by the least change: a force there is at its limit, and the
-/// element does not go on to slide as it `slid`.
-fn require_no_jump<L, S, const N: usize, const M: usize>(
-    system: &L,
-    q: &SVector<S, N>,
-    end: &End<S, N, M>,
-    slid: &SVector<S, M>,
-) -> Result<(), StepError>
-where
-    L: DryFriction<N, M, Scalar = S>,
-    S: Scalar,
-{
-    let v = end.light.without(&end.v);
-    let jump = Jump::<S, N, M>::of(system, &end.light, q, &v)?;
-    let is_one = jump.is_one(system, &end.light, &v);
-    for element in elements(L::ELEMENTS) {
-        let is_at_limit = element.length(&jump.held.forces) > S::one() - S::constant(EDGE);
-        let goes_on = element.dot(slid, &jump.held.forces) > S::zero();
-        if is_at_limit && (is_one || !goes_on) {
-            return Err(StepError::AtLimitOfFriction { component: element.first });
-        }
-    }
-    Ok(())
 }
 
 /// The derivatives of the equations by what moves them at fixed ends.
@@ -353,8 +316,8 @@ struct Moved<S, const N: usize, const M: usize, const K: usize> {
     end_slip: SMatrix<S, M, K>,
     /// ∂L/∂v at fixed (q1, v1).
     momentum: SMatrix<S, N, K>,
-    /// The jump at the end.
-    jump: MovedJump<S, N, M, K>,
+    /// The balance at the end.
+    places: MovedBalance<S, N, M, K>,
 }
 
 impl<S: Scalar, const N: usize, const M: usize, const K: usize> Moved<S, N, M, K> {
@@ -367,7 +330,7 @@ impl<S: Scalar, const N: usize, const M: usize, const K: usize> Moved<S, N, M, K
             balance: of_momenta,
             end_slip: of_slips,
             momentum: of_momenta,
-            jump: MovedJump::none(),
+            places: MovedBalance::none(),
         }
     }
 }

@@ -17,10 +17,10 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::element::{Element, elements};
+use super::element::elements;
 use super::end::{forces, light_among, terms};
 use super::equation::direction_of;
-use super::jump::{Jump, OF_FORCES};
+use super::balanced::{OF_FORCES, balanced};
 use super::line::Line as Bordered;
 use super::root::{Line, root};
 use super::set::Held;
@@ -54,7 +54,7 @@ where
     let massless = Massless::of(system, q);
     let light = light_among(&massless, system, q);
     let start = massless.without(v);
-    let q = if light.are_any() { Jump::of(system, &light, q, &start).ok()?.q } else { *q };
+    let q = if light.are_any() { at_once(system, &light, q, &start)? } else { *q };
     let mut motion = Motion { system, massless, light, q, v: start, forces: nalgebra::zero() };
     let mut found = motion.found()?;
     if light.are_any() && !(L::IS_UNIFORM && !is_timed(system)) {
@@ -65,6 +65,26 @@ where
     let (v, held) = found;
     let v = if light.are_any() { motion.in_the_limit(&v, &held).unwrap_or(v) } else { v };
     Some(massless.rows(&sticking_in(&light, &motion.slips(&start), &v, &held)) + start)
+}
+
+/// The places to which the coordinates `light` jump where no friction bears the forces at (q, v): with a little
+/// friction that is smooth they would be there before anything else has moved, belts neither.
+fn at_once<L, const N: usize, const M: usize>(
+    system: &L,
+    light: &Massless<N>,
+    q: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
+) -> Option<SVector<L::Scalar, N>>
+where
+    L: DryFriction<N, M>,
+{
+    let slips = |q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>| {
+        let slips: Slips<_, N, M> = system.slips(q, v);
+        Slips { values: slips.by_velocity * v, ..slips }
+    };
+    let rest = nalgebra::zero();
+    let one = L::Scalar::constant(1.0);
+    balanced(system, light, (q, one), (&rest, v), slips).ok().map(|at| at.q)
 }
 
 /// Where the velocities without mass are looked for.
@@ -121,14 +141,15 @@ where
             self.system.later(elapsed, |system| {
                 let slips: Slips<_, N, M> = system.slips(&self.q, &self.v);
                 let friction = slips.by_velocity.transpose() * slips.limits.component_mul(&self.forces);
-                self.light.rows(&(friction - forces(system, &self.q, &self.v).value))
+                let forces = forces(system, &self.q, &self.v).value;
+                (self.light.rows(&(friction - forces)), self.light.rows(&forces).amax())
             })
         };
         let mut over = S::constant(LONGEST);
         for _ in 0..HALVINGS {
-            let (ahead, behind) = (at(over), at(-over));
+            let ((ahead, size_ahead), (behind, size_behind)) = (at(over), at(-over));
             let change = ahead - behind;
-            if change.amax() <= (ahead.amax() + behind.amax()) * S::constant(CHANGE) {
+            if change.amax() <= (size_ahead + size_behind) * S::constant(CHANGE) {
                 return change / (over * S::constant(2.0));
             }
             over *= S::constant(0.5);
@@ -164,7 +185,7 @@ where
             slip: -slips.values,
             sticks: held.sticks,
         };
-        line.release(L::ELEMENTS, &held.forces, |_| true);
+        line.release(L::ELEMENTS, &held.forces);
         let stiffness = self.stiffness();
         let bordered = Bordered::of(&self.light.block(&stiffness), &line.directions, &line.rows, &line.sticks);
         let right = -self.light.rows(&(stiffness * others + self.by_time()));
@@ -173,28 +194,22 @@ where
 }
 
 /// Equations u = 0 of what sticks, and of what slides those across its way.
-pub(super) struct Released<S, const N: usize, const M: usize> {
+struct Released<S, const N: usize, const M: usize> {
     /// Column by column, the forces.
-    pub(super) directions: SMatrix<S, N, M>,
+    directions: SMatrix<S, N, M>,
     /// Row by row, the slips.
-    pub(super) rows: SMatrix<S, M, N>,
+    rows: SMatrix<S, M, N>,
     /// What they are to be.
-    pub(super) slip: SVector<S, M>,
-    pub(super) sticks: [bool; M],
+    slip: SVector<S, M>,
+    sticks: [bool; M],
 }
 
 impl<S: Scalar, const N: usize, const M: usize> Released<S, N, M> {
-    /// Releases what slides, along the forces s: across its way a length that `is_rigid` neither slips nor
-    /// bears less.
-    pub(super) fn release(
-        &mut self,
-        sizes: &[usize],
-        forces: &SVector<S, M>,
-        is_rigid: impl Fn(Element) -> bool,
-    ) {
+    /// Releases what slides, along the forces s: across its way a length neither slips nor bears less.
+    fn release(&mut self, sizes: &[usize], forces: &SVector<S, M>) {
         let sticks = self.sticks;
         for element in elements(sizes).filter(|element| element.head(&sticks) == Some(false)) {
-            if element.size > 1 && is_rigid(element) {
+            if element.size > 1 {
                 let s = element.part(forces);
                 self.directions -= self.directions * s * s.transpose();
                 self.rows -= s * (s.transpose() * self.rows);
