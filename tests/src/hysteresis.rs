@@ -112,9 +112,12 @@ impl Motion {
         } else {
             (self.v * time + 0.5 * force / s.m * time * time, self.v + force / s.m * time)
         };
-        let forces = std::array::from_fn(|j| {
-            if self.slides[j] { self.forces[j] } else { self.forces[j] + s.k[j] * x }
-        });
+        let forces =
+            std::array::from_fn(
+                |j| {
+                    if self.slides[j] { self.forces[j] } else { self.forces[j] + s.k[j] * x }
+                },
+            );
         (self.q + x, v, forces)
     }
 

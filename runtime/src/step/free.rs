@@ -7,8 +7,8 @@ use nalgebra::{SMatrix, SVector};
 use crate::numbers::Factored;
 use crate::step::equation::OfRule;
 use crate::step::{
-    Border, BorderParameters, BoundedStep, ClosedForm, Discrete, Fused, LegendreDerivatives, Momenta, MomentaBy,
-    PhaseMatrix, Segment, State, StateBy, Step, StepError, invert, step_by, step_within_by,
+    Border, BorderParameters, BoundedStep, ClosedForm, Discrete, Fused, LegendreDerivatives, Momenta,
+    MomentaBy, PhaseMatrix, Segment, State, StateBy, Step, StepError, invert, step_by, step_within_by,
 };
 use crate::system::Lagrangian;
 
@@ -90,8 +90,7 @@ where
         iterations: u32,
     ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
         let equation = OfRule::<L, R, E>::new(system);
-        let BoundedStep { step, converged } =
-            step_within_by(system, &equation, state, h, guess, iterations)?;
+        let BoundedStep { step, converged } = step_within_by(system, &equation, state, h, guess, iterations)?;
         Ok(BoundedStep { step: E::ended(system, state, step, h)?, converged })
     }
 
@@ -101,11 +100,7 @@ where
     }
 
     #[inline]
-    fn completed(
-        system: &L,
-        step: Step<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> Option<Step<L::Scalar, N>> {
+    fn completed(system: &L, step: Step<L::Scalar, N>, h: L::Scalar) -> Option<Step<L::Scalar, N>> {
         let _ = (system, h);
         E::IS_OF_EQUATION.then_some(step)
     }

@@ -43,8 +43,8 @@ use end::{End, Middle, velocity};
 use equation::WithFriction;
 use linearized::LinearizedFriction;
 pub use rates::massless_velocity;
-use sticking::sticking;
 pub(crate) use slipping::{Slip, Slipping};
+use sticking::sticking;
 
 /// Kinks of R with M components in all, [`DryFriction`]: the border of a step with friction that holds.
 #[derive(Clone, Copy, Debug)]

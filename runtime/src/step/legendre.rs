@@ -13,6 +13,9 @@ use crate::step::{
 };
 use crate::system::{Lagrangian, Quantity, derivatives_apart, verification::around};
 
+/// The equations for the velocity at (q, v).
+type Equations<'a, S, const N: usize> = &'a dyn Fn(&SVector<S, N>, &SVector<S, N>) -> Balance<S, N>;
+
 impl<S: Scalar, const N: usize> State<S, N> {
     /// The state (q, ∂L/∂v(q, v)), by the Legendre transform of L.
     ///
@@ -61,7 +64,9 @@ impl<S: Scalar, const N: usize> State<S, N> {
     /// have the order of its rule: v = p^{1/3} for ¼|v|⁴ has no derivative there.
     ///
     /// **Without mass** the velocity of a coordinate is that at which friction balances the other forces,
-    /// ∂R/∂v = ∂L/∂q + f, whatever p is there; where f takes an input, of the view that holds it.
+    /// ∂R/∂v = ∂L/∂q + f, whatever p is there; where f takes an input, of the view that holds it. Where dry
+    /// friction alone balances them it is 0, or that by which their force stays at its limit, an input being
+    /// held and a time going on; the change of forces with the velocity of a mass is left out.
     ///
     /// # Errors
     /// As [`Discretised::step`](crate::Discretised::step); [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is
@@ -152,7 +157,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
         &self,
         system: &L,
         massless: &Massless<N>,
-        balance: &dyn Fn(&SVector<S, N>, &SVector<S, N>) -> Balance<S, N>,
+        balance: Equations<'_, S, N>,
         error: Option<StepError>,
     ) -> Result<SVector<S, N>, StepError> {
         let rest = nalgebra::zero();

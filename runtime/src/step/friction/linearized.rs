@@ -14,8 +14,8 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::element::elements;
 use super::balanced::at_end;
+use super::element::elements;
 use super::end::{Middle, balance, by_ends};
 use super::equation::{at_middle, direction_of};
 use super::line::{Line, leave};
@@ -178,9 +178,8 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
         )?;
         let light = by_ends.map(|by_ends| -> Result<_, StepError> {
             let at = at_end(system, segment, &end)?;
-            let balance = system.later(h, |system| {
-                LinearizedBalance::of(system, &end.light, h * half, &at, &end.v)
-            })?;
+            let balance =
+                system.later(h, |system| LinearizedBalance::of(system, &end.light, h * half, &at, &end.v))?;
             Ok(Light { coordinates: end.light, by_ends, balance })
         });
         let light = light.transpose()?;

@@ -17,10 +17,10 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::balanced::{OF_FORCES, balanced};
 use super::element::elements;
 use super::end::{forces, light_among, terms};
 use super::equation::direction_of;
-use super::balanced::{OF_FORCES, balanced};
 use super::line::Line as Bordered;
 use super::root::{Line, root};
 use super::set::Held;
@@ -57,7 +57,7 @@ where
     let q = if light.are_any() { at_once(system, &light, q, &start)? } else { *q };
     let mut motion = Motion { system, massless, light, q, v: start, forces: nalgebra::zero() };
     let mut found = motion.found()?;
-    if light.are_any() && !(L::IS_UNIFORM && !is_timed(system)) {
+    if light.are_any() && (!L::IS_UNIFORM || is_timed(system)) {
         // What friction itself changes by, with the forces known.
         motion.forces = found.1.forces;
         found = motion.found()?;
@@ -171,11 +171,7 @@ where
     }
 
     /// The velocities in Y of the limit τ → 0, where what sticks and slides is known.
-    fn in_the_limit(
-        &self,
-        v: &SVector<S, N>,
-        held: &Held<S, M>,
-    ) -> Option<SVector<S, N>> {
+    fn in_the_limit(&self, v: &SVector<S, N>, held: &Held<S, M>) -> Option<SVector<S, N>> {
         let others = self.light.without(v);
         let slips: Slips<_, N, M> = self.system.slips(&self.q, &others);
         let in_light = Slips { by_velocity: self.light.columns(&slips.by_velocity), ..slips };
@@ -187,7 +183,8 @@ where
         };
         line.release(L::ELEMENTS, &held.forces);
         let stiffness = self.stiffness();
-        let bordered = Bordered::of(&self.light.block(&stiffness), &line.directions, &line.rows, &line.sticks);
+        let bordered =
+            Bordered::of(&self.light.block(&stiffness), &line.directions, &line.rows, &line.sticks);
         let right = -self.light.rows(&(stiffness * others + self.by_time()));
         Some(others + self.light.rows(&bordered.ok()?.solve(&right, &line.slip)))
     }

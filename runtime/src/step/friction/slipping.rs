@@ -2,8 +2,8 @@
 
 use nalgebra::SVector;
 
-use super::element::elements;
 use super::balanced::at_end;
+use super::element::elements;
 use super::end;
 use crate::numbers::Scalar;
 use crate::step::{ClosedForm, Discrete, Segment, State, StepError};

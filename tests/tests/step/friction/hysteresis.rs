@@ -140,7 +140,7 @@ fn random_systems_have_their_motion() -> Result<(), StepError> {
             let off = of_forces.fold(of_mass, f64::max);
             Ok(off.max((taken - motion.dissipated).abs()))
         };
-        let found = [error(iwan, 200)?, error(iwan, 800)?];
+        let found = [error(iwan, 100)?, error(iwan, 400)?];
         off = [off[0].max(found[0]), off[1].max(found[1]), off[2].max(found[1] / found[0])];
         let other = Iwan { mu: iwan.mu.map(|mu| 1.01 * mu), ..iwan };
         // Where nothing comes to its limit friction does not matter.
@@ -152,7 +152,7 @@ fn random_systems_have_their_motion() -> Result<(), StepError> {
     }
     println!("{off:?}, {events} events, {slide} slide at the end, {controls} tell 1 % of friction");
     assert!(events > 5 * count && slide > count / 4 && controls > count / 2, "{events} {slide} {controls}");
-    assert!(off[0] < 3e-2 && off[1] < 2e-3 && off[2] < 0.5, "{off:?}");
+    assert!(off[0] < 0.1 && off[1] < 7e-3 && off[2] < 0.7, "{off:?}");
     Ok(())
 }
 
@@ -162,7 +162,7 @@ fn what_holds_takes_nothing() -> Result<(), StepError> {
     for at_mass in [0.0, 1.0] {
         let held = Iwan { mu: [1e3; SLIDERS], at_mass: [at_mass; SLIDERS], ..JENKIN };
         let start = State::from_velocity(&held, [0.0; 4], [1.0, 0.0, 0.0, 0.0])?;
-        let end = held.by(Proximal, 0.05).run(start).nth(9_999).unwrap()?.state;
+        let end = held.by(Proximal, 0.05).run(start).nth(1_999).unwrap()?.state;
         assert!((end.energy(&held)? / start.energy(&held)? - 1.0).abs() < 1e-6, "{end:?}");
     }
     Ok(())
@@ -196,7 +196,7 @@ fn at_rest_at_its_limit() -> Result<(), StepError> {
     let rest = run.nth(999).unwrap()?.state;
     assert!(rest.p == vector![0.0, 0.0] && (4.0 * (rest.q[0] - rest.q[1]) - 0.3).abs() < 4e-15, "{rest:?}");
     assert_eq!(rest.velocity(&system)?, vector![0.0, 0.0]);
-    assert_eq!(run.nth(99_999).unwrap()?.state, rest);
+    assert_eq!(run.nth(4_999).unwrap()?.state, rest);
 
     let far = State { q: vector![0.0, -1.0], p: vector![0.0, 0.0] };
     let step = system.by(Proximal, 0.01).step(&far)?;
@@ -259,7 +259,11 @@ fn steps_are_differentiated() {
             let forces = iwan.forces(q);
             (0..SLIDERS).any(|j| (1e-12..1e-4).contains(&(1.0 - forces[j].abs() / iwan.mu[j])))
         };
-        if is_near(&start.q) || is_near(&end.q) || is_near(&(0.5 * (start.q + end.q))) || end.p[0].abs() < 1e-4 {
+        if is_near(&start.q)
+            || is_near(&end.q)
+            || is_near(&(0.5 * (start.q + end.q)))
+            || end.p[0].abs() < 1e-4
+        {
             continue;
         }
         for j in 0..SLIDERS {
