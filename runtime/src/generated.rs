@@ -23,7 +23,9 @@ pub use crate::run::{
     DriftMemory, Explicit, ExplicitDriftMemory, ExplicitInLanes, ExplicitMemory, KeptMatrix, VelocityHistory,
 };
 #[doc(no_inline)]
-pub use crate::step::{Constraints, DiscreteInLanes, Free, Friction, Momenta, Segment, StepKernel};
+pub use crate::step::{
+    Constraints, DiscreteInLanes, Free, Friction, Momenta, Segment, StepKernel, massless_velocity,
+};
 #[doc(no_inline)]
 pub use crate::system::{
     ActingForce, Constrained, ConstrainedParameters, ConstraintsBy, CyclicCoordinate, Damping, Driven,

@@ -8,6 +8,7 @@ pub mod documented;
 pub mod draws;
 #[cfg(feature = "all-claims")]
 pub mod hard;
+pub mod hysteresis;
 pub mod limit_cycle;
 pub mod mechanisms;
 #[cfg(feature = "studies")]

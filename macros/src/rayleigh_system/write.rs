@@ -85,6 +85,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
         functions.lagrangian,
         &functions.places,
         &functions.plain,
+        functions.friction.as_ref(),
     );
     let rayleigh = functions.rayleigh.map(|derivatives| continuous::rayleigh(system, derivatives));
     let force = functions.force.map(|derivatives| continuous::force(system, derivatives));

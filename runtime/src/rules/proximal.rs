@@ -67,8 +67,12 @@ use crate::system::{Driven, Parameters, SmoothRayleigh};
 /// reactions of constraints do. Limits and slips are those at q̄ in both lines, so that F(q) does not take
 /// from the order.
 ///
-/// Where L does not hold the velocity of a coordinate, the other forces at the end, R_s among them, balance
-/// friction in the second line, and p1 is 0.
+/// **Without mass.** Where L does not hold the velocity of a coordinate, p1 is 0. Where R_s or f does, the
+/// other forces at the end balance friction in the second line. Where the kinks alone do, as at the end of a
+/// spring on a Coulomb slider, the balance is that of the middle, and q1 the place, from q̄ on, at which
+/// friction bears the forces of the end: the law of a spring and a slider in series to rounding, as long as
+/// the stretch goes one way in each half step, and what has mass moves with order 2. Its velocity is 0 where
+/// the force is within its limit; where it slides, that by which the force stays there.
 ///
 /// Not self-adjoint. A, B and derivatives by parameters are those of what sticks and what slides; at the
 /// limit of the two there is none ([`StepError::AtLimitOfFriction`]). When each element comes to stick and
@@ -142,7 +146,9 @@ where
     L: Fused<Proximal, N> + SmoothRayleigh<N> + Driven<N, M>,
 {
     fn by_input(at: &LinearizedSegment<'_, L, Proximal, N>) -> Result<StateBy<L::Scalar, N, M>, StepError> {
-        at.answer(&Midpoint::force_by_input(at.on.segment(), at.on.system, L::force_by_input))
+        let (system, segment) = (at.on.system, at.on.segment());
+        let momenta = Midpoint::force_by_input(segment, system, L::force_by_input);
+        at.answer_input(&momenta, |q, v| system.later(segment.h, |system| system.force_by_input(q, v)))
     }
 }
 

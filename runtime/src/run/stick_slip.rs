@@ -90,7 +90,8 @@ where
 /// ends within one step is not seen.
 ///
 /// **When.** An element sticks from the size of step on with which it does, and slips from the middle of the
-/// longest step that holds it: there the force is at its limit. Both are as exact as the states that they
+/// longest step that holds it: there the force is at its limit. One that a coordinate without mass slips by
+/// is held to the end of such a step. Both are as exact as the states that they
 /// start from, of first order in h in general.
 ///
 /// **The run** takes the steps of [`until`](Trajectory::until), bit by bit, and stands at the end of the one
@@ -167,7 +168,10 @@ where
             };
             let (first, second) = match (from, to) {
                 (Slip::Along(from), Slip::None) => (Some(self.stops(taken, element, from)?), None),
-                (Slip::None, Slip::Along(to)) => (Some(self.slips(taken, element, to)?), None),
+                (Slip::None, Slip::Along(to)) => {
+                    let at_limit = after.at_limit(L::ELEMENTS, element);
+                    (Some(self.slips(taken, element, to, at_limit)?), None)
+                }
                 (Slip::Along(from), Slip::Along(direction)) if is_turned => {
                     let stop = self.stops(taken, element, from)?;
                     (Some(stop), Some(StickSlipEvent { change: Change::Slips, direction, ..stop }))
@@ -199,13 +203,14 @@ where
     }
 
     /// The event that an element which sticks begins to slip along `direction` within a step, or in the
-    /// second half of the one before, whose middle held it.
+    /// second half of the one before, whose middle held it: at this share of the longest step that holds it.
     #[cold]
     fn slips(
         &self,
         taken: &Taken<L::Scalar, N, M>,
         element: usize,
         direction: SVector<L::Scalar, M>,
+        at_limit: f64,
     ) -> Result<StickSlipEvent<L::Scalar, N, M>, StepError> {
         let what = (element, Change::Slips, direction);
         let has_slipped = |slipping: &Slipping<L::Scalar, M>| match slipping.of(L::ELEMENTS, element) {
@@ -214,12 +219,12 @@ where
         };
         let share = self.first(taken, [0.0, 1.0], has_slipped)?;
         if share > AT_ONCE {
-            return self.event(taken, 0.5 * share, what);
+            return self.event(taken, at_limit * share, what);
         }
         match &self.earlier {
-            Some(earlier) if !has_slipped(&earlier.before) => {
+            Some(earlier) if at_limit < 1.0 && !has_slipped(&earlier.before) => {
                 let share = self.first(earlier, [1.0, 2.0], has_slipped)?;
-                self.event(earlier, 0.5 * share, what)
+                self.event(earlier, at_limit * share, what)
             }
             _ => self.event(taken, 0.0, what),
         }

@@ -126,6 +126,23 @@ pub trait Border<L: Lagrangian<N> + ?Sized, R, const N: usize> {
         at: &Self::Linearized,
         momenta: &MomentaBy<L::Scalar, N, P>,
     ) -> Result<StateBy<L::Scalar, N, P>, StepError>;
+
+    /// [`answer`](Self::answer) where it is an input that moves the momenta, and by `at_end` the forces at
+    /// (q, v) of the end.
+    ///
+    /// # Errors
+    /// [`StepError::NonFinite`].
+    #[inline]
+    fn answer_input<const P: usize>(
+        k: &LegendreDerivatives<L::Scalar, N>,
+        q_by_p: &SMatrix<L::Scalar, N, N>,
+        at: &Self::Linearized,
+        momenta: &MomentaBy<L::Scalar, N, P>,
+        at_end: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, P>,
+    ) -> Result<StateBy<L::Scalar, N, P>, StepError> {
+        let _ = at_end;
+        Self::answer(k, q_by_p, at, momenta)
+    }
 }
 
 /// A border whose constraints, if there are any, have derivatives by the P parameters of the system.

@@ -7,7 +7,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::step::cause::cause_of;
 use crate::step::massless::inertia;
-use crate::step::{Discrete, Fused, Momenta, Segment, StepError, StepKernel};
+use crate::step::{Discrete, Ending, Fused, Momenta, OfFormula, Segment, StepError, StepKernel};
 
 /// The kind of the equation p0(q, v) = p, as known before it is solved.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -106,22 +106,23 @@ pub(crate) trait StepEquation<S: Scalar, const N: usize> {
     }
 }
 
-/// The equation of a system by a rule that is solved for v̄ itself.
-pub(crate) struct OfRule<'a, L: ?Sized, R> {
+/// The equation of a system by a rule that is solved for v̄ itself, with the momenta that `E` takes.
+pub(crate) struct OfRule<'a, L: ?Sized, R, E = OfFormula> {
     system: &'a L,
-    rule: PhantomData<fn() -> R>,
+    rule: PhantomData<fn() -> (R, E)>,
 }
 
-impl<'a, L: ?Sized, R> OfRule<'a, L, R> {
+impl<'a, L: ?Sized, R, E> OfRule<'a, L, R, E> {
     #[inline]
     pub(crate) fn new(system: &'a L) -> Self {
         Self { system, rule: PhantomData }
     }
 }
 
-impl<L, R, const N: usize> StepEquation<L::Scalar, N> for OfRule<'_, L, R>
+impl<L, R, E, const N: usize> StepEquation<L::Scalar, N> for OfRule<'_, L, R, E>
 where
     L: Fused<R, N> + Discrete<R, N> + ?Sized,
+    E: Ending<L, R, N>,
 {
     type Matrix = L::Matrix;
 
@@ -132,7 +133,7 @@ where
 
     #[inline]
     fn momenta(&self, segment: &Segment<L::Scalar, N>) -> Momenta<L::Scalar, N> {
-        self.system.momenta(segment)
+        E::momenta(self.system, segment)
     }
 
     #[inline]

@@ -16,13 +16,18 @@
 //! Elements that stick are a border of W, as constraints of velocity are; which of them do, [`set`] finds.
 //! The solver of every other step is given F, whose root is the step, with the matrix W.
 
+mod balanced;
 mod element;
 mod end;
 mod equation;
 mod line;
 mod linearized;
+mod linearized_balance;
+mod rates;
+mod root;
 mod set;
 mod slipping;
+mod sticking;
 mod unturned;
 
 use nalgebra::{SMatrix, SVector};
@@ -33,10 +38,13 @@ use crate::step::{
     PhaseMatrix, Segment, State, StateBy, Step, StepError, step_by, step_within_by,
 };
 use crate::system::{DryFriction, DryFrictionParameters, Parameters};
-use end::{End, sticking, velocity};
+use balanced::at_end;
+use end::{End, Middle, velocity};
 use equation::WithFriction;
 use linearized::LinearizedFriction;
+pub use rates::massless_velocity;
 pub(crate) use slipping::{Slip, Slipping};
+use sticking::sticking;
 
 /// Kinks of R with M components in all, [`DryFriction`]: the border of a step with friction that holds.
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +66,8 @@ where
     held::<L, R, N, M>(system, state, step, h, &equation)
 }
 
-/// The step that was solved for up to the momentum at its end.
+/// The step that was solved for up to its end.
+#[inline(always)]
 fn held<L, R, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
@@ -78,11 +87,18 @@ where
     {
         let half = h * L::Scalar::constant(0.5);
         let middle = state.q + v * half;
-        v = system.later(half, |system| sticking(system, &middle, &v, &held));
+        // The slips are linear in v: at rest they are those of what moves by itself, a belt.
+        let slips = system.later(half, |system| system.slips(&middle, &nalgebra::zero()));
+        v = sticking(&slips, &v, &held);
         w = system.momenta(&Segment { q0: state.q, v, h }).p1;
     }
-    let p1 = end(system, &Segment { q0: state.q, v, h }, &w)?.p;
-    Step::completed(state, h, v, &Momenta { p0: state.p, p1 }, step.report)
+    let segment = Segment { q0: state.q, v, h };
+    let end = end(system, &segment, &w)?;
+    let mut step = Step::completed(state, h, v, &Momenta { p0: state.p, p1: end.p }, step.report)?;
+    if end.light.are_any() {
+        step.state.q = at_end(system, &segment, &end)?.q;
+    }
+    Ok(step)
 }
 
 /// The velocity at the end of a segment that is solved for, where p1 would be `w` without friction.
@@ -96,9 +112,10 @@ where
 {
     let Segment { q0, v, h } = segment;
     let half = *h * L::Scalar::constant(0.5);
-    let (middle, q1) = (q0 + v * half, q0 + v * *h);
-    system.later(half, |at_middle| {
-        at_middle.later(half, |at_end| velocity(at_end, &q1, (at_middle, &middle, *h), w, v))
+    let (q, q1) = (q0 + v * half, q0 + v * *h);
+    system.later(half, |system| {
+        let middle = Middle { system, h: *h, q, v: *v };
+        system.later(half, |at_end| velocity(at_end, &q1, &middle, w))
     })
 }
 
@@ -168,7 +185,17 @@ where
         at: &Self::Linearized,
         momenta: &MomentaBy<L::Scalar, N, P>,
     ) -> Result<StateBy<L::Scalar, N, P>, StepError> {
-        at.answer(k, momenta)
+        at.answer(k, momenta, |_, _| nalgebra::zero())
+    }
+
+    fn answer_input<const P: usize>(
+        k: &LegendreDerivatives<L::Scalar, N>,
+        _: &SMatrix<L::Scalar, N, N>,
+        at: &Self::Linearized,
+        momenta: &MomentaBy<L::Scalar, N, P>,
+        at_end: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, P>,
+    ) -> Result<StateBy<L::Scalar, N, P>, StepError> {
+        at.answer(k, momenta, at_end)
     }
 }
 

@@ -5,13 +5,16 @@ use nalgebra::SVector;
 use crate::numbers::{Scalar, linear};
 use crate::step::cause::{explained_by_lagrangian, of_violation};
 use crate::step::equation::Alone;
-use crate::step::massless::Massless;
+use crate::step::massless::{Balance, Massless};
 use crate::step::regular::{beside_velocity, require_regular};
 use crate::step::{
     State, StepError, StepKernel, newton,
     newton::{estimated_floor, held_against},
 };
 use crate::system::{Lagrangian, Quantity, derivatives_apart, verification::around};
+
+/// The equations for the velocity at (q, v).
+type Equations<'a, S, const N: usize> = &'a dyn Fn(&SVector<S, N>, &SVector<S, N>) -> Balance<S, N>;
 
 impl<S: Scalar, const N: usize> State<S, N> {
     /// The state (q, ∂L/∂v(q, v)), by the Legendre transform of L.
@@ -61,7 +64,9 @@ impl<S: Scalar, const N: usize> State<S, N> {
     /// have the order of its rule: v = p^{1/3} for ¼|v|⁴ has no derivative there.
     ///
     /// **Without mass** the velocity of a coordinate is that at which friction balances the other forces,
-    /// ∂R/∂v = ∂L/∂q + f, whatever p is there; where f takes an input, of the view that holds it.
+    /// ∂R/∂v = ∂L/∂q + f, whatever p is there; where f takes an input, of the view that holds it. Where dry
+    /// friction alone balances them it is 0, or that by which their force stays at its limit, an input being
+    /// held and a time going on; the change of forces with the velocity of a mass is left out.
     ///
     /// # Errors
     /// As [`Discretised::step`](crate::Discretised::step); [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is
@@ -119,6 +124,15 @@ impl<S: Scalar, const N: usize> State<S, N> {
         if let Err(error) = found {
             require_determined_nearby(system, &massless, &self.q, &rest, error)?;
         }
+        if massless.are_any() {
+            // Dry friction acts beside velocities with mass.
+            let at_rest = |q: &SVector<S, N>, v: &SVector<S, N>| massless.at_rest(system, q, v);
+            if let Ok(others) = self.velocity_of(system, &massless, &at_rest, None)
+                && let Some(v) = system.massless_velocity(&self.q, &others)
+            {
+                return Ok(v);
+            }
+        }
         self.velocity_by_newton(system, &massless, found.err())
     }
 
@@ -131,9 +145,22 @@ impl<S: Scalar, const N: usize> State<S, N> {
         massless: &Massless<N>,
         error: Option<StepError>,
     ) -> Result<SVector<S, N>, StepError> {
-        let rest = nalgebra::zero();
         let balance =
             |q: &SVector<S, N>, v: &SVector<S, N>| massless.balance_at(system, q, v, S::constant(1.0));
+        self.velocity_of(system, massless, &balance, error)
+    }
+
+    /// [`velocity_by_newton`](Self::velocity_by_newton), of these equations.
+    #[cold]
+    #[inline(never)]
+    fn velocity_of<L: Lagrangian<N, Scalar = S> + ?Sized>(
+        &self,
+        system: &L,
+        massless: &Massless<N>,
+        balance: Equations<'_, S, N>,
+        error: Option<StepError>,
+    ) -> Result<SVector<S, N>, StepError> {
+        let rest = nalgebra::zero();
         // 𝔽L is the limit h → 0 of the discrete transforms.
         let equation = Alone {
             kernel: |q: &SVector<S, N>, v: &SVector<S, N>| {

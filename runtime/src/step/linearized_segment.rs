@@ -27,6 +27,18 @@ impl<L: ClosedForm<R, N> + Discrete<R, N>, R, const N: usize> LinearizedSegment<
             .map_err(|error| self.explained(error))
     }
 
+    /// [`answer`](Self::answer) where it is an input that moves the momenta, and by `at_end` the forces at
+    /// (q, v) of the end.
+    pub(crate) fn answer_input<const M: usize>(
+        &self,
+        momenta: &MomentaBy<L::Scalar, N, M>,
+        at_end: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, M>,
+    ) -> Result<StateBy<L::Scalar, N, M>, StepError> {
+        let (k, border) = (&self.k, &self.border);
+        <L::Border as Border<L, R, N>>::answer_input(k, &self.q_by_p, border, momenta, at_end)
+            .map_err(|error| self.explained(error))
+    }
+
     /// [`answer`](Self::answer) where it is the parameters that move the momenta.
     pub(crate) fn answer_parameters<const P: usize>(
         &self,

@@ -53,8 +53,7 @@ impl<const N: usize> Massless<N> {
     #[inline(never)]
     pub(crate) fn of<L: Lagrangian<N> + ?Sized>(system: &L, q: &SVector<L::Scalar, N>) -> Self {
         let mut massless = Self([!L::IS_CONSTRAINED; N]);
-        let rest = nalgebra::zero();
-        for (q, v) in [(*q, rest), (*q, beside_velocity(&rest)), (beside(q), beside_velocity(&rest))] {
+        for (q, v) in at_rest_and_beside(q) {
             if massless.are_any() {
                 let l = derivatives_apart(system, &q, &v);
                 for i in 0..N {
@@ -63,6 +62,27 @@ impl<const N: usize> Massless<N> {
             }
         }
         massless
+    }
+
+    /// Those of the coordinates whose velocity no force holds that is smooth in it, neither theirs nor that of
+    /// another: dry friction alone can, if anything does. `smooth` has all forces but those of kinks.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn held_by_kinks<S: Scalar>(
+        &self,
+        q: &SVector<S, N>,
+        smooth: impl Fn(&SVector<S, N>, &SVector<S, N>) -> CovectorDerivatives<S, N>,
+    ) -> Self {
+        let mut held = *self;
+        for (q, v) in at_rest_and_beside(q) {
+            let by_velocity = smooth(&q, &v).d2.data.0;
+            for i in 0..N {
+                for j in 0..N {
+                    held.0[i] &= by_velocity[j][i] == S::zero() && by_velocity[i][j] == S::zero();
+                }
+            }
+        }
+        held
     }
 
     /// Whether there are any.
@@ -93,6 +113,27 @@ impl<const N: usize> Massless<N> {
             }
         }
         held
+    }
+
+    /// These columns of a matrix, and 0 in the others.
+    pub(crate) fn columns<S: Scalar, const R: usize>(&self, of: &SMatrix<S, R, N>) -> SMatrix<S, R, N> {
+        let mut columns = *of;
+        for (column, is_in) in columns.data.0.iter_mut().zip(self.0) {
+            if !is_in {
+                column.fill(S::zero());
+            }
+        }
+        columns
+    }
+
+    /// These rows of a matrix or vector, and 0 in the others.
+    pub(crate) fn rows<S: Scalar, const C: usize>(&self, of: &SMatrix<S, N, C>) -> SMatrix<S, N, C> {
+        of - self.without(of)
+    }
+
+    /// These rows and columns of a matrix, and those of the unit matrix elsewhere.
+    pub(crate) fn block<S: Scalar>(&self, of: &SMatrix<S, N, N>) -> SMatrix<S, N, N> {
+        self.rows(&self.columns(of)) + self.without(&SMatrix::identity())
     }
 
     /// The equations for the velocity, where L and the force have these derivatives; those of coordinates
@@ -157,6 +198,19 @@ impl<const N: usize> Massless<N> {
         self.balance(&derivatives_apart(system, q, v), force, scale)
     }
 
+    /// The equations for the velocity of a system whose coordinates without mass are at rest.
+    pub(crate) fn at_rest<L: Lagrangian<N> + ?Sized>(
+        &self,
+        system: &L,
+        q: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+    ) -> Balance<L::Scalar, N> {
+        let mut balance = Balance::of(&derivatives_apart(system, q, v));
+        balance.value += self.rows(v);
+        balance.by_v += self.rows(&SMatrix::identity());
+        balance
+    }
+
     /// Fails where momenta and friction do not determine the velocity at (q, v). Where the system is not told
     /// which force acts, its view will say.
     #[cold]
@@ -170,8 +224,19 @@ impl<const N: usize> Massless<N> {
         if self.are_any() && system.massless_force(q, v).is_none() {
             return Ok(());
         }
-        require_regular(&self.balance_at(system, q, v, L::Scalar::constant(1.0)).by_v)
+        require_regular(&self.balance_at(system, q, v, L::Scalar::constant(1.0)).by_v).or_else(|error| {
+            match self.are_any() && system.massless_velocity(q, v).is_some() {
+                true => Ok(()),
+                false => Err(error),
+            }
+        })
     }
+}
+
+/// Points (q, v) that tell whether a velocity stands in a function: at rest, beside it, and beside q.
+fn at_rest_and_beside<S: Scalar, const N: usize>(q: &SVector<S, N>) -> [(SVector<S, N>, SVector<S, N>); 3] {
+    let rest = nalgebra::zero();
+    [(*q, rest), (*q, beside_velocity(&rest)), (beside(q), beside_velocity(&rest))]
 }
 
 /// ∂²L/∂v² at (q, v), with ½h times the friction in its place in coordinates without mass: what the Newton

@@ -223,6 +223,21 @@ pub trait Lagrangian<const N: usize> {
         Some(CovectorDerivatives::zero())
     }
 
+    /// v with the velocities that dry friction leaves to coordinates without mass, where it acts; nothing
+    /// where they do not follow.
+    ///
+    /// Generated where R has kinks that a rule takes. Asked beside [`massless_force`](Self::massless_force);
+    /// no step asks for it.
+    #[cold]
+    fn massless_velocity(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> Option<SVector<Self::Scalar, N>> {
+        let _ = (q, v);
+        None
+    }
+
     /// E_L(q, v) = v·∂L/∂v − L, the energy. Along the motion dE_L/dt = v·f_L.
     #[inline]
     fn energy(&self, q: &SVector<Self::Scalar, N>, v: &SVector<Self::Scalar, N>) -> Self::Scalar {

@@ -1,6 +1,7 @@
 //! Friction that holds, by `rule = proximal`: kinks of R implicit at both ends of a step.
 
 mod derivatives;
+mod hysteresis;
 mod inclusion;
 mod many;
 mod sliders;

@@ -7,6 +7,7 @@ use super::super::model::{Home, System};
 use super::super::parts::Part;
 use super::super::structure::{Engine, Structure};
 use super::constrained;
+use super::friction::Friction;
 use super::item::PlainFields;
 use super::view::{self, owner, subject, value};
 
@@ -18,6 +19,7 @@ pub fn lagrangian(
     derivatives: TokenStream,
     places: &[Option<TokenStream>; 2],
     plain: &PlainFields,
+    kinks: Option<&Friction>,
 ) -> TokenStream {
     let scalar = &system.scalar;
     let n = system.degrees.times(1);
@@ -32,7 +34,8 @@ pub fn lagrangian(
         let non_finite = non_finite_value(system, home, plain.names_fields);
         let constraints = constrained::held(system, home);
         let massless = massless_force(system, home);
-        quote!(#verification #missing #places #non_finite #massless #constraints)
+        let sliding = kinks.filter(|_| home == system.home()).map(|kinks| massless_velocity(system, kinks));
+        quote!(#verification #missing #places #non_finite #massless #sliding #constraints)
     };
     let of_view = system.has_view().then(|| asked(Home::View));
     let asked = asked(home);
@@ -127,6 +130,17 @@ fn massless_force(system: &System<'_>, home: Home) -> Option<TokenStream> {
             }
         }
     })
+}
+
+/// `fn massless_velocity`: with the kinks of R.
+fn massless_velocity(system: &System<'_>, kinks: &Friction) -> TokenStream {
+    let (n, m) = (system.degrees.times(1), kinks.components());
+    quote! {
+        #[cold]
+        fn massless_velocity(&self, q: &Vector, v: &Vector) -> ::core::option::Option<Vector> {
+            ::dalembert::generated::massless_velocity::<Self, #n, #m>(self, q, v)
+        }
+    }
 }
 
 /// `fn verify_generated` and `fn verify_slopes`: of L, R and f, as far as `home` has them.

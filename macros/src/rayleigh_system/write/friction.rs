@@ -21,11 +21,18 @@ pub struct Friction {
     pub smooth: Option<TokenStream>,
 }
 
+impl Friction {
+    /// The number of all components.
+    pub fn components(&self) -> Literal {
+        Literal::usize_unsuffixed(self.sizes.iter().sum())
+    }
+}
+
 /// `impl SmoothRayleigh<2> for Ring` and `impl DryFriction<2, 1> for Ring`, and `impl
 /// DryFrictionParameters<2, 1, 3> for Ring` where parameters are listed.
 pub fn dry_friction(system: &System<'_>, friction: &Friction) -> TokenStream {
     let Friction { sizes, is_uniform, is_proportional, functions, by_parameters, smooth } = friction;
-    let (n, m) = (system.degrees.times(1), Literal::usize_unsuffixed(sizes.iter().sum()));
+    let (n, m) = (system.degrees.times(1), friction.components());
     let sizes = sizes.iter().map(|size| Literal::usize_unsuffixed(*size));
     let subject = subject(system, system.home());
     let smooth = smooth.as_ref().map(|function| {

@@ -4,6 +4,7 @@ use core::cell::{Cell, RefCell};
 
 use nalgebra::{SMatrix, SVector};
 
+use super::element::elements;
 use super::set::{Elements, Held};
 use crate::numbers::{Factored, NewtonMatrix, Pivoted, Scalar};
 use crate::step::equation::{Equation, OfRule, StepEquation};
@@ -16,6 +17,19 @@ const HALVINGS: u32 = 40;
 /// Shares of a velocity at which friction that falls with it is looked at: where it falls most steeply is not
 /// known.
 const SHARES: [f64; 6] = [0.0, 0.0625, 0.125, 0.25, 0.5, 0.75];
+
+/// Shares of the longest velocity in reach at which the slope of the objective is looked at, from half to half
+/// and evenly.
+const LOOKS: [f64; 24] = [
+    0.0005, 0.001, 0.002, 0.004, 0.008, 0.016, 0.032, 0.063, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5,
+    0.55, 0.6, 0.7, 0.8, 0.9, 0.95, 1.0,
+];
+
+/// A share of the velocity of the step nearer than which its own slope, 0, is not looked at.
+const NEAR: f64 = 1e-6;
+
+/// Roundings of its terms below which that slope is 0.
+const OF_SLOPE: f64 = 1024.0;
 
 /// Slips on a segment with what a Newton matrix W makes of friction forces.
 #[derive(Clone, Copy, Debug)]
@@ -188,6 +202,44 @@ where
             {
                 self.error.set(Some(error));
                 self.at.set(segment.v);
+                return Err(self.explained(error));
+            }
+        }
+        self.require_one_least(segment)
+    }
+
+    /// Fails where the objective falls towards another least along the line from rest through the velocity of
+    /// the segment, as far as the step without friction would go: a convex one falls to it and rises beyond.
+    #[cold]
+    fn require_one_least(&self, segment: &Segment<L::Scalar, N>) -> Result<(), StepError> {
+        let zero = L::Scalar::constant(0.0);
+        let at_rest = self.free.kernel(&Segment { v: nalgebra::zero(), ..*segment });
+        let Some(factored) = Pivoted::of(&at_rest.matrix) else { return Ok(()) };
+        let free = factored.solve(&(self.state.p - at_rest.p0));
+        let (own, longest) = (segment.v.norm(), free.norm());
+        let way = if own > zero { segment.v / own } else { free / longest };
+        for share in LOOKS {
+            let speed = longest * L::Scalar::constant(share);
+            let v = way * speed;
+            let at = Segment { v, ..*segment };
+            let slips = at_middle(self.system, &at);
+            let mut forces = slips.values;
+            for element in elements(L::ELEMENTS) {
+                let length = element.length(&slips.values);
+                element.divide(&mut forces, if length > zero { length } else { L::Scalar::constant(1.0) });
+            }
+            let directions = direction_of(&slips, segment.h)?;
+            let p0 = self.free.kernel(&at).p0;
+            let slope = way.dot(&(p0 - self.state.p + directions * forces));
+            let terms = p0.abs() + self.state.p.abs() + directions.abs() * forces.abs();
+            let least = way.abs().dot(&terms) * L::Scalar::constant(OF_SLOPE) * L::Scalar::EPSILON;
+            let near = own * L::Scalar::constant(NEAR);
+            let falls_back = speed < own - near && slope > least;
+            if falls_back || speed > own + near && slope < -least {
+                let error =
+                    StepError::NotConvex { component: forces.iamax(), h: segment.h.widen(), enough: 0.0 };
+                self.error.set(Some(error));
+                self.at.set(v);
                 return Err(self.explained(error));
             }
         }

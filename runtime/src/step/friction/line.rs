@@ -12,6 +12,7 @@ pub(super) struct Line<S: Scalar, const N: usize, const M: usize> {
     pub(super) rows: SMatrix<S, M, N>,
     answers: SMatrix<S, N, M>,
     pub(super) complement: Complement<S, M>,
+    sticks: [bool; M],
 }
 
 impl<S: Scalar, const N: usize, const M: usize> Line<S, N, M> {
@@ -34,7 +35,14 @@ impl<S: Scalar, const N: usize, const M: usize> Line<S, N, M> {
         let complement =
             Complement::of(&(rows * answers + beside), || Independent::of(&rows, &directions, &answers))
                 .ok_or(StepError::SingularNewtonMatrix { iteration: 0, column: 0 })?;
-        Ok(Self { inverse, rows, answers, complement })
+        Ok(Self { inverse, rows, answers, complement, sticks: *sticks })
+    }
+
+    /// The rows of what sticks.
+    pub(super) fn left<const K: usize>(&self, of: &SMatrix<S, M, K>) -> SMatrix<S, M, K> {
+        let mut left = *of;
+        leave(&mut left, &self.sticks);
+        left
     }
 
     /// x of X x + D s = `right`, rows x = `slip`.
@@ -50,8 +58,8 @@ impl<S: Scalar, const N: usize, const M: usize> Line<S, N, M> {
 }
 
 /// Leaves the rows of what sticks.
-pub(super) fn leave<S: Scalar, const N: usize, const M: usize>(
-    rows: &mut SMatrix<S, M, N>,
+pub(super) fn leave<S: Scalar, const K: usize, const M: usize>(
+    rows: &mut SMatrix<S, M, K>,
     sticks: &[bool; M],
 ) {
     for column in &mut rows.data.0 {

@@ -14,10 +14,12 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::balanced::at_end;
 use super::element::elements;
-use super::end::{balance, velocity};
+use super::end::{Middle, balance, by_ends};
 use super::equation::{at_middle, direction_of};
 use super::line::{Line, leave};
+use super::linearized_balance::{LinearizedBalance, MovedBalance};
 use crate::numbers::Scalar;
 use crate::step::massless::Massless;
 use crate::step::{
@@ -50,17 +52,27 @@ pub struct LinearizedFriction<S: Scalar, const N: usize, const M: usize> {
     /// ∂/∂q of the equations for v1, which are balances of forces in coordinates without mass.
     end_by_q: SMatrix<S, N, N>,
     massless: Massless<N>,
+    /// Coordinates that the kinks alone hold.
+    light: Option<Light<S, N, M>>,
+}
+
+/// What coordinates that the kinks alone hold have beside: their line for v1 by q0 and q1, and their
+/// places at the end.
+struct Light<S: Scalar, const N: usize, const M: usize> {
+    coordinates: Massless<N>,
+    by_ends: [SMatrix<S, N, N>; 2],
+    balance: LinearizedBalance<S, N, M>,
 }
 
 /// s and what sticks at the slips of a step, and Σ D ∂s/∂u where a length slides.
-struct State<S, const N: usize, const M: usize> {
-    forces: SVector<S, M>,
-    sticks: [bool; M],
-    turning: SMatrix<S, N, M>,
+pub(super) struct State<S, const N: usize, const M: usize> {
+    pub(super) forces: SVector<S, M>,
+    pub(super) sticks: [bool; M],
+    pub(super) turning: SMatrix<S, N, M>,
 }
 
 impl<S: Scalar, const N: usize, const M: usize> State<S, N, M> {
-    fn of(
+    pub(super) fn of(
         sizes: &[usize],
         slips: &SVector<S, M>,
         directions: &SMatrix<S, N, M>,
@@ -89,7 +101,7 @@ impl<S: Scalar, const N: usize, const M: usize> State<S, N, M> {
     }
 
     /// Fails where a friction force that holds is at its limit.
-    fn require_off_edge(&self, sizes: &[usize]) -> Result<(), StepError> {
+    pub(super) fn require_off_edge(&self, sizes: &[usize]) -> Result<(), StepError> {
         for element in elements(sizes) {
             let is_stuck = element.head(&self.sticks) == Some(true);
             if is_stuck && element.length(&self.forces) > S::one() - S::constant(EDGE) {
@@ -145,24 +157,34 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
         // The velocity at the end.
         let w = k.momenta.p1;
         let (middle, q1) = (segment.q0 + segment.v * (h * half), segment.q0 + segment.v * h);
-        let end = system.later(h * half, |at_middle| {
-            at_middle.later(h * half, |at_end| velocity(at_end, &q1, (at_middle, &middle, h), &w, &segment.v))
-        })?;
-        let at_end = system.later(h * half, |system| system.slips(&middle, &end.v));
-        let mut at = State::of(L::ELEMENTS, &at_end.values, &directions, &terms(&end.v));
-        at.forces = end.forces;
-        at.sticks = end.sticks;
+        let end = super::end(system, segment, &w)?;
+        let slips_at_end = system.later(h * half, |system| system.slips(&middle, &end.v));
+        let mut at = State::of(L::ELEMENTS, &slips_at_end.values, &directions, &terms(&end.v));
+        at.forces = end.held.forces;
+        at.sticks = end.held.sticks;
         at.require_off_edge(L::ELEMENTS)?;
         let l = system.later(h, |system| system.lagrangian_derivatives(&q1, &end.v));
-        let of_end = system.later(h, |system| balance(system, &end.massless, &q1, &end.v, h));
+        let (of_end, by_ends) = system.later(h * half, |system| {
+            let middle = Middle { system, h, q: middle, v: segment.v };
+            let massless = (&end.massless, &end.light);
+            let line = system.later(h * half, |at_end| balance(at_end, massless, &q1, &end.v, &middle));
+            (line, end.light.are_any().then(|| by_ends(&end.light, &end.v, &middle)))
+        });
         let second = Line::of(
-            &(of_end.by_v + at.turning * at_end.by_velocity),
+            &(of_end.by_v + at.turning * slips_at_end.by_velocity),
             &directions,
-            &at_end.by_velocity,
+            &slips_at_end.by_velocity,
             &at.sticks,
         )?;
-        let half_impulse = at.turning * (at_end.by_configuration * half) + curvature(&at.forces);
-        let (mut half_slip, mut slip_by_q0) = (at_end.by_configuration * half, by_q0);
+        let light = by_ends.map(|by_ends| -> Result<_, StepError> {
+            let at = at_end(system, segment, &end)?;
+            let balance =
+                system.later(h, |system| LinearizedBalance::of(system, &end.light, h * half, &at, &end.v))?;
+            Ok(Light { coordinates: end.light, by_ends, balance })
+        });
+        let light = light.transpose()?;
+        let half_impulse = at.turning * (slips_at_end.by_configuration * half) + curvature(&at.forces);
+        let (mut half_slip, mut slip_by_q0) = (slips_at_end.by_configuration * half, by_q0);
         leave(&mut half_slip, &at.sticks);
         leave(&mut slip_by_q0, &of_first.sticks);
         let linearized = Self {
@@ -179,6 +201,7 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
             momentum_by_q: l.d12.transpose(),
             end_by_q: of_end.by_q,
             massless: end.massless,
+            light,
         };
         let q_by_p = linearized.first.solve(&SMatrix::identity(), &nalgebra::zero());
         Ok((q_by_p, linearized))
@@ -195,9 +218,17 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
         let q = self.first.solve(&right, &-(self.slip_by_q0 * start.q + moved.slip));
         let both = start.q + q;
         let w = self.massless.without(&(k.p1_by_q0 * start.q + k.p1_by_q1 * q + moved.p1)) - moved.balance;
-        let right = w - self.end_by_q * q - self.half_impulse * both;
+        let mut right = w - self.end_by_q * q - self.half_impulse * both;
+        if let Some(Light { coordinates, by_ends: [by_q0, by_q1], .. }) = &self.light {
+            // Momenta have the forces at the middle.
+            right += coordinates.rows(&moved.p1) - by_q0 * start.q - by_q1 * q;
+        }
         let v = self.second.solve(&right, &-(self.half_slip * both + moved.end_slip));
         let p = self.mass * v + self.momentum_by_q * q + moved.momentum;
+        let q = match &self.light {
+            Some(light) => light.balance.by((&start.q, &q), &v, &moved.places),
+            None => q,
+        };
         StepError::require_finite(&q, Quantity::Derivatives)?;
         StepError::require_finite(&p, Quantity::Derivatives)?;
         Ok(StateBy { q, p })
@@ -210,12 +241,17 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
         Ok(PhaseMatrix { q_by_q: by_q.q, p_by_q: by_q.p, q_by_p: by_p.q, p_by_p: by_p.p })
     }
 
+    /// By what moves the momenta, and the forces at (q, v) of the end.
     pub(super) fn answer<const P: usize>(
         &self,
         k: &LegendreDerivatives<S, N>,
         momenta: &MomentaBy<S, N, P>,
+        at_end: impl Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, P>,
     ) -> Result<StateBy<S, N, P>, StepError> {
-        let moved = Moved { p0: momenta.p0, p1: momenta.p1, ..Moved::none() };
+        let mut moved = Moved { p0: momenta.p0, p1: momenta.p1, ..Moved::none() };
+        if let Some(light) = &self.light {
+            moved.places.balance = -light.balance.at(at_end);
+        }
         self.carried(k, &StateBy { q: nalgebra::zero(), p: nalgebra::zero() }, &moved)
     }
 
@@ -250,7 +286,8 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
                 };
                 l.d1 + smooth + system.force_by_parameters(&q1, &self.v)
             };
-            (l.d2, self.massless.balance_by(&l.d2, forces, half))
+            let balance = self.massless.balance_by(&l.d2, forces, half);
+            (l.d2, self.light.as_ref().map_or(balance, |light| light.coordinates.without(&balance)))
         });
         let moved = Moved {
             p0: momenta.p0 + impulse,
@@ -259,6 +296,9 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
             balance: balance + end_impulse,
             end_slip,
             momentum,
+            places: self.light.as_ref().map_or_else(MovedBalance::none, |light| {
+                system.later(segment.h, |system| light.balance.by_parameters(system))
+            }),
         };
         self.carried(k, &StateBy { q: nalgebra::zero(), p: nalgebra::zero() }, &moved)
     }
@@ -275,6 +315,8 @@ struct Moved<S, const N: usize, const M: usize, const K: usize> {
     end_slip: SMatrix<S, M, K>,
     /// ∂L/∂v at fixed (q1, v1).
     momentum: SMatrix<S, N, K>,
+    /// The balance at the end.
+    places: MovedBalance<S, N, M, K>,
 }
 
 impl<S: Scalar, const N: usize, const M: usize, const K: usize> Moved<S, N, M, K> {
@@ -287,6 +329,7 @@ impl<S: Scalar, const N: usize, const M: usize, const K: usize> Moved<S, N, M, K
             balance: of_momenta,
             end_slip: of_slips,
             momentum: of_momenta,
+            places: MovedBalance::none(),
         }
     }
 }

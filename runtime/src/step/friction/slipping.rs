@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 
+use super::balanced::at_end;
 use super::element::elements;
 use super::end;
 use crate::numbers::Scalar;
@@ -16,6 +17,8 @@ const ROUNDINGS: f64 = 64.0;
 pub(crate) struct Slipping<S, const M: usize> {
     slips: SVector<S, M>,
     sticks: [bool; M],
+    /// Whether forces at the end of a step let it slip, and not those at the middle.
+    by_end: [bool; M],
 }
 
 /// An element, by what it does.
@@ -45,7 +48,7 @@ impl<S: Scalar, const M: usize> Slipping<S, M> {
             let is_at_rest = entries.all(|(slip, most)| slip.abs() <= *most);
             element.of_mut(&mut sticks).for_each(|stick| *stick = is_at_rest);
         }
-        Ok(Self { slips: values, sticks })
+        Ok(Self { slips: values, sticks, by_end: [false; M] })
     }
 
     /// At the end of the step on a segment, which was solved for: as the step itself has it.
@@ -57,9 +60,27 @@ impl<S: Scalar, const M: usize> Slipping<S, M> {
         L: ClosedForm<R, N> + Discrete<R, N> + DryFriction<N, M, Scalar = S>,
     {
         let end = end(system, segment, &system.momenta(segment).p1)?;
+        if end.light.are_any() {
+            // How fast the kinks let go there the end itself tells.
+            let q = at_end(system, segment, &end)?.q;
+            return system.later(segment.h, |system| {
+                let mut slipping = Self::at(system, &State { q, p: end.p })?;
+                let rows = end.light.columns(&system.slips(&q, &end.v).by_velocity).abs().column_sum();
+                let touched = slipping.by_end.iter_mut().zip(rows.as_slice());
+                touched.for_each(|(by_end, row)| *by_end = *row > S::zero());
+                Ok(slipping)
+            });
+        }
         let half = segment.h * S::constant(0.5);
         let slips = system.later(half, |system| system.slips(&(segment.q0 + segment.v * half), &end.v));
-        Ok(Self { slips: slips.values, sticks: end.sticks })
+        Ok(Self { slips: slips.values, sticks: end.held.sticks, by_end: [false; M] })
+    }
+
+    /// The share of the longest step which holds one of the elements that have so many components each, where
+    /// its force is at its limit: the middle, or the end.
+    pub(crate) fn at_limit(&self, sizes: &[usize], element: usize) -> f64 {
+        let by_end = elements(sizes).nth(element).and_then(|element| element.head(&self.by_end));
+        if by_end == Some(true) { 1.0 } else { 0.5 }
     }
 
     /// One of the elements that have so many components each.
