@@ -94,11 +94,11 @@ where
     }
     let segment = Segment { q0: state.q, v, h };
     let end = end(system, &segment, &w)?;
-    let mut step = Step::completed(state, h, v, &Momenta { p0: state.p, p1: end.p }, step.report)?;
-    if end.light.are_any() {
-        step.state.q = at_end(system, &segment, &end)?.q;
-    }
-    Ok(step)
+    let q = if end.light.are_any() { at_end(system, &segment, &end)?.q } else { state.q + v * h };
+    // By p0 + (p1 − p0) a small p1 would be rounded as p0 is, and what sticks would slip.
+    let next = State { q, p: end.p };
+    next.require_reached()?;
+    Ok(Step { state: next, velocity: v, report: step.report })
 }
 
 /// The velocity at the end of a segment that is solved for, where p1 would be `w` without friction.
