@@ -34,8 +34,8 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{Factored, Scalar};
 use crate::step::{
-    Border, BorderParameters, BoundedStep, ClosedForm, Discrete, LegendreDerivatives, Momenta, MomentaBy,
-    PhaseMatrix, Segment, State, StateBy, Step, StepError, step_by, step_within_by,
+    Border, BorderParameters, BoundedStep, ClosedForm, Discrete, LegendreDerivatives, MomentaBy, PhaseMatrix,
+    Segment, State, StateBy, Step, StepError, step_by, step_within_by,
 };
 use crate::system::{DryFriction, DryFrictionParameters, Parameters};
 use balanced::at_end;
