@@ -1,10 +1,11 @@
 //! The struct of a system's fields, the same in Rust and in other languages.
 
+use core::ffi::CStr;
 use core::fmt;
 
-use crate::Number;
+use crate::{Number, PointsError, WrongPoints};
 
-mod sealed {
+pub(crate) mod sealed {
     /// The types that are listed here, and no others: those that C reads as they are.
     pub trait Listed: Copy + 'static {}
 }
@@ -13,16 +14,29 @@ mod sealed {
 #[diagnostic::on_unimplemented(
     message = "C and Rust do not share the type `{Self}`",
     label = "no field of C's",
-    note = "a field is a number, `f64`, `f32`, `i8` … `i64`, `u8` … `u64`, or an array of them, of one or two dimensions"
+    note = "a field is a number, `f64`, `f32`, `i8` … `i64`, `u8` … `u64`, an array of them, of one or two dimensions, or a `Table<K>`"
 )]
 pub trait FieldType: sealed::Listed {
-    /// The type before the name of a field in C.
+    /// The type that other languages give in its place: itself, or [`Points`](crate::Points) of a table.
+    type Given: FieldType<Given = Self::Given>;
+    /// The type before the name of a field in C, or that of a table's numbers.
     const BASE: &'static str;
-    /// The dimensions behind the name: `[2][3]`, or nothing.
+    /// The dimensions behind the name: `[2][3]`, or nothing; of a table `[2][K]`, the x and the y.
     const DIMENSIONS: &'static [usize];
+    /// Whether it is a table.
+    const IS_TABLE: bool = false;
 
-    /// 0, or as many as there are.
+    /// 0, or as many as there are; of a table the one that is 0.
     const ZERO: Self;
+
+    /// What other languages would give for this value.
+    fn given(&self) -> Self::Given;
+
+    /// The value that is given.
+    ///
+    /// # Errors
+    /// A [`PointsError`], of a table alone.
+    fn of(given: &Self::Given) -> Result<Self, PointsError>;
 
     /// Whether it is NaN, or has a NaN in it.
     fn has_nan(&self) -> bool;
@@ -34,6 +48,21 @@ pub trait FieldType: sealed::Listed {
     fn change_entry(&mut self, index: usize, value: Number) -> bool;
 }
 
+/// What is given is the value itself.
+macro_rules! as_it_is {
+    () => {
+        type Given = Self;
+
+        fn given(&self) -> Self {
+            *self
+        }
+
+        fn of(given: &Self) -> Result<Self, PointsError> {
+            Ok(*given)
+        }
+    };
+}
+
 macro_rules! numbers {
     ($($number:ty, $c:literal, |$value:ident| $nan:expr;)*) => { $(
         impl sealed::Listed for $number {}
@@ -41,6 +70,7 @@ macro_rules! numbers {
         impl<const J: usize, const K: usize> sealed::Listed for [[$number; K]; J] {}
 
         impl FieldType for $number {
+            as_it_is!();
             const BASE: &'static str = $c;
             const DIMENSIONS: &'static [usize] = &[];
             const ZERO: Self = 0 as $number;
@@ -64,6 +94,7 @@ macro_rules! numbers {
         }
 
         impl<const K: usize> FieldType for [$number; K] {
+            as_it_is!();
             const BASE: &'static str = $c;
             const DIMENSIONS: &'static [usize] = &[K];
             const ZERO: Self = [0 as $number; K];
@@ -82,6 +113,7 @@ macro_rules! numbers {
         }
 
         impl<const J: usize, const K: usize> FieldType for [[$number; K]; J] {
+            as_it_is!();
             const BASE: &'static str = $c;
             const DIMENSIONS: &'static [usize] = &[J, K];
             const ZERO: Self = [[0 as $number; K]; J];
@@ -119,12 +151,16 @@ numbers! {
 pub struct Field {
     /// Its name.
     pub name: &'static str,
+    /// Its name, as C reads it.
+    pub name_for_c: &'static CStr,
     /// Its documentation, a line each.
     pub documentation: &'static [&'static str],
     /// The type before the name in C.
     pub base: &'static str,
-    /// The lengths of the arrays behind it.
+    /// The lengths of the arrays behind it; of a table 2, for x and y, and the number of points.
     pub dimensions: &'static [usize],
+    /// Whether it is a table.
+    pub is_table: bool,
     /// Bytes before it.
     pub offset: usize,
 }
@@ -137,6 +173,9 @@ pub struct Field {
     note = "declare the struct within `parameters! {{ pub struct {Self} {{ … }} }}`"
 )]
 pub trait Fields: Copy + 'static {
+    /// The struct that other languages fill in, laid out as C does: the fields as they are, and
+    /// [`Points`](crate::Points) in place of tables.
+    type Given: Fields<Given = Self::Given>;
     /// The documentation of the struct, a line each.
     const DOCUMENTATION: &'static [&'static str];
     /// Its fields, in order.
@@ -144,19 +183,31 @@ pub trait Fields: Copy + 'static {
     /// The system all of whose fields are 0.
     const ZERO: Self;
 
+    /// What other languages would give for this system.
+    fn given(&self) -> Self::Given;
+
+    /// The system that is given.
+    ///
+    /// # Errors
+    /// [`WrongPoints`]: the first table whose points make none.
+    fn of(given: &Self::Given) -> Result<Self, WrongPoints>;
+
     /// Whether a field is NaN, or has a NaN in it.
     fn has_nan(&self) -> bool;
 
     /// Number `index` of field `field`, arrays row by row.
     fn entry(&self, field: usize, index: usize) -> Option<Number>;
 
-    /// Changes number `index` of field `field`; whether there is one of this type.
+    /// Changes number `index` of field `field`; whether there is one of this type. Points of a table change in
+    /// what is [given](Self::given) alone.
     fn change_entry(&mut self, field: usize, index: usize, value: Number) -> bool;
 }
 
-/// Declares the struct of a system, laid out as C does, with its fields by name and number.
+/// Declares the struct of a system, with its fields by name and number, and the struct that is filled in for
+/// it, laid out as C does.
 ///
-/// Fields are numbers (`f64`, `f32`, `i8` … `u64`) or arrays of them, of one or two dimensions.
+/// Fields are numbers (`f64`, `f32`, `i8` … `u64`), arrays of them, of one or two dimensions, or
+/// [`Table`](dalembert::system::Table)s.
 #[macro_export]
 macro_rules! fields {
     (
@@ -170,16 +221,54 @@ macro_rules! fields {
             $($(#[doc = $field_doc])* pub $field: $kind,)*
         }
 
-        impl $crate::Fields for $name {
-            const DOCUMENTATION: &'static [&'static str] = &[$($doc),*];
-            const FIELDS: &'static [$crate::Field] = &[$($crate::Field {
+        const _: () = {
+            /// What other languages fill in.
+            #[derive(Clone, Copy, Debug, PartialEq)]
+            #[repr(C)]
+            pub struct Given {
+                $(pub $field: <$kind as $crate::FieldType>::Given,)*
+            }
+
+            const FIELDS: &[$crate::Field] = &[$($crate::Field {
                 name: stringify!($field),
+                name_for_c: match core::ffi::CStr::from_bytes_with_nul(concat!(stringify!($field), "\0").as_bytes()) {
+                    Ok(name) => name,
+                    Err(_) => unreachable!(),
+                },
                 documentation: &[$($field_doc),*],
                 base: <$kind as $crate::FieldType>::BASE,
                 dimensions: <$kind as $crate::FieldType>::DIMENSIONS,
-                offset: core::mem::offset_of!($name, $field),
+                is_table: <$kind as $crate::FieldType>::IS_TABLE,
+                offset: core::mem::offset_of!(Given, $field),
             }),*];
+
+            $crate::fields! {
+                @implemented $name, Given, FIELDS, [$($doc),*] $($field: $kind;)*
+            }
+            $crate::fields! {
+                @implemented Given, Given, FIELDS, [$($doc),*] $($field: <$kind as $crate::FieldType>::Given;)*
+            }
+        };
+    };
+    (@implemented $name:ident, $given:ident, $fields:ident, [$($doc:expr),*] $($field:ident: $kind:ty;)*) => {
+        impl $crate::Fields for $name {
+            type Given = $given;
+            const DOCUMENTATION: &'static [&'static str] = &[$($doc),*];
+            const FIELDS: &'static [$crate::Field] = $fields;
             const ZERO: Self = Self { $($field: <$kind as $crate::FieldType>::ZERO,)* };
+
+            fn given(&self) -> $given {
+                $given { $($field: <$kind as $crate::FieldType>::given(&self.$field),)* }
+            }
+
+            fn of(given: &$given) -> Result<Self, $crate::WrongPoints> {
+                Ok(Self { $(
+                    $field: match <$kind as $crate::FieldType>::of(&given.$field) {
+                        Ok(field) => field,
+                        Err(error) => return Err($crate::WrongPoints::of(Self::FIELDS, stringify!($field), error)),
+                    },
+                )* })
+            }
 
             fn has_nan(&self) -> bool {
                 false $(|| <$kind as $crate::FieldType>::has_nan(&self.$field))*
@@ -199,7 +288,7 @@ macro_rules! fields {
 }
 
 impl fmt::Display for Field {
-    /// As C declares it: `double c[2]`.
+    /// As C declares it: `double c[2]`; of a table its points, `double drag[2][8]`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} {}", self.base, self.name)?;
         self.dimensions.iter().try_for_each(|length| write!(f, "[{length}]"))

@@ -17,6 +17,7 @@ mod layout;
 mod mass;
 mod number;
 mod of_block;
+mod points;
 
 pub use columns::{ByInput, ByParameters, Column, by_state};
 pub use constraints::{Holding, Multipliers, Reacting, StepMade};
@@ -25,3 +26,4 @@ pub use interface::{By, Input, Interface, coordinates, start};
 pub use layout::layout;
 pub use number::Number;
 pub use of_block::{Events, Outputs};
+pub use points::{Points, PointsError, WrongPoints, interpolation_number};
