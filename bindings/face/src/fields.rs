@@ -201,6 +201,18 @@ pub trait Fields: Copy + 'static {
     /// Changes number `index` of field `field`; whether there is one of this type. Points of a table change in
     /// what is [given](Self::given) alone.
     fn change_entry(&mut self, field: usize, index: usize, value: Number) -> bool;
+
+    /// This system with other numbers of field `field`, from its first on.
+    ///
+    /// # Errors
+    /// [`WrongPoints`], of a table alone.
+    fn with_field(&self, field: usize, numbers: &[Number]) -> Result<Self, WrongPoints> {
+        let mut given = self.given();
+        for (index, number) in numbers.iter().enumerate() {
+            given.change_entry(field, index, *number);
+        }
+        Self::of(&given)
+    }
 }
 
 /// Declares the struct of a system, with its fields by name and number, and the struct that is filled in for
