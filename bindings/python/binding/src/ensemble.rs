@@ -282,6 +282,14 @@ fn fields(
         let like = model.entry(field, 0).unwrap_or(Number::F64(0.0));
         let (numbers, length) = entries_of_members(&kind.fields()[field], like, &value)?;
         agree(members, &name, Some(length))?;
+        if kind.fields()[field].is_table {
+            // What has no error here has none where the members are made.
+            let mut tried = model.copy();
+            for numbers in numbers.chunks(numbers.len() / length.max(1)) {
+                let changed = tried.change_field(field, numbers);
+                changed.map_err(|wrong| PyValueError::new_err(wrong.to_string()))?;
+            }
+        }
         fields.push((field, numbers));
     }
     Ok(fields)

@@ -69,6 +69,7 @@ mod structure;
 mod stub;
 #[doc(hidden)]
 pub mod system;
+mod table;
 #[doc(hidden)]
 pub mod together;
 #[doc(hidden)]
