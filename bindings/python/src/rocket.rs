@@ -15,7 +15,7 @@ crate::parameters! {
     }
 }
 
-#[rayleigh_system(parameters = [mass], lanes = midpoint)]
+#[rayleigh_system(rule = [midpoint, gauss], parameters = [mass], lanes = midpoint)]
 impl Rocket {
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
         0.5 * self.mass * v[0] * v[0] - 9.81 * self.mass * q[0]
