@@ -1,5 +1,5 @@
-//! Curves that are fields, in lanes: every member reads its own, at its own place, and its state is bit by bit
-//! that of its own run.
+//! Curves that are fields, in lanes: every member reads its own, at its own place, and its state is bit by
+//! bit that of its own run.
 
 use dalembert::nalgebra::vector;
 use dalembert::run::LaneRuns;
@@ -60,8 +60,8 @@ struct Wheel {
     cam: Table<4>,
 }
 
-/// Tables, slices, an array of tables, points and a curve of one's own in the force, beside a constant one; one
-/// of two chosen by a field, and one read before the run.
+/// Tables, slices, an array of tables, points and a curve of one's own in the force, beside a constant one;
+/// one of two chosen by a field, and one read before the run.
 #[derive(Clone, Debug)]
 struct Rider {
     k: f64,
