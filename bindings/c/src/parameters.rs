@@ -28,8 +28,8 @@ macro_rules! parameters {
             $vis struct $name { $($(#[doc = $field_doc])* pub $field: $kind),+ }
         }
 
-        // SAFETY: repr(C), and each field is what a FieldType is given as, so Plain; bytes between fields are not
-        // read.
+        // SAFETY: repr(C), and each field is what a FieldType is given as, so Plain; bytes between fields are
+        // not read.
         #[allow(unsafe_code)]
         unsafe impl $crate::boundary::Plain for <$name as $crate::face::Fields>::Given {}
     };

@@ -1,4 +1,5 @@
-//! How a step went, how far a state is off its constraints, and which point of a table is wrong, as C reads it.
+//! How a step went, how far a state is off its constraints, and which point of a table is wrong, as C reads
+//! it.
 
 use core::ffi::c_char;
 use core::ptr;

@@ -3,7 +3,8 @@
 use core::ffi::CStr;
 use core::fmt;
 
-use crate::{Number, PointsError, WrongPoints};
+use crate::number::Number;
+use crate::wrong_points::{PointsError, WrongPoints};
 
 pub(crate) mod sealed {
     /// The types that are listed here, and no others: those that C reads as they are.
@@ -198,8 +199,8 @@ pub trait Fields: Copy + 'static {
     /// Number `index` of field `field`, arrays row by row.
     fn entry(&self, field: usize, index: usize) -> Option<Number>;
 
-    /// Changes number `index` of field `field`; whether there is one of this type. Points of a table change in
-    /// what is [given](Self::given) alone.
+    /// Changes number `index` of field `field`; whether there is one of this type. Points of a table change
+    /// in what is [given](Self::given) alone.
     fn change_entry(&mut self, field: usize, index: usize, value: Number) -> bool;
 
     /// This system with other numbers of field `field`, from its first on.
@@ -277,7 +278,11 @@ macro_rules! fields {
                 Ok(Self { $(
                     $field: match <$kind as $crate::FieldType>::of(&given.$field) {
                         Ok(field) => field,
-                        Err(error) => return Err($crate::WrongPoints::of(Self::FIELDS, stringify!($field), error)),
+                        Err(error) => {
+                            let name = stringify!($field);
+                            let field = Self::FIELDS.iter().position(|field| field.name == name).unwrap_or(0);
+                            return Err($crate::WrongPoints { field, name, error });
+                        }
                     },
                 )* })
             }

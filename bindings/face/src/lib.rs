@@ -18,6 +18,7 @@ mod mass;
 mod number;
 mod of_block;
 mod points;
+mod wrong_points;
 
 pub use columns::{ByInput, ByParameters, Column, by_state};
 pub use constraints::{Holding, Multipliers, Reacting, StepMade};
@@ -26,4 +27,5 @@ pub use interface::{By, Input, Interface, coordinates, start};
 pub use layout::layout;
 pub use number::Number;
 pub use of_block::{Events, Outputs};
-pub use points::{Points, PointsError, WrongPoints, interpolation_number};
+pub use points::Points;
+pub use wrong_points::{PointsError, WrongPoints, interpolation_number};

@@ -1,11 +1,10 @@
 //! Tables as other languages give them: points, and the interpolation between them by a number.
 
-use core::fmt;
-
 use dalembert::system::{Interpolation, Scalar, Table, TableError};
 
-use crate::fields::{Field, FieldType, sealed};
+use crate::fields::{FieldType, sealed};
 use crate::number::Number;
+use crate::wrong_points::{PointsError, interpolation_number};
 
 /// The points of a [`Table`], laid out as C does: what other languages give in its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,87 +19,6 @@ pub struct Points<T, const K: usize> {
     /// Whether the table goes on by its slope beyond its ends: 0 where it keeps its value there.
     pub straight_beyond: i32,
 }
-
-/// The number that other languages call an interpolation by: from 1 on, so that 0 is none that was forgotten.
-#[must_use]
-pub const fn interpolation_number(of: Interpolation) -> i32 {
-    of as i32 + 1
-}
-
-/// Why points that were given make no table.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PointsError {
-    /// The number is that of no interpolation.
-    NoInterpolation {
-        /// The number.
-        number: i32,
-    },
-    /// The points are wrong.
-    Points(TableError),
-}
-
-impl PointsError {
-    /// The place of the point that is wrong, of those that are wrong by themselves.
-    #[must_use]
-    pub const fn point(&self) -> Option<usize> {
-        match *self {
-            Self::Points(
-                TableError::KnotNotFinite { index, .. }
-                | TableError::ValueNotFinite { index, .. }
-                | TableError::NotIncreasing { index, .. }
-                | TableError::TooSteep { index, .. }
-                | TableError::SinglePrecision { index },
-            ) => Some(index),
-            _ => None,
-        }
-    }
-}
-
-impl fmt::Display for PointsError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoInterpolation { number } => {
-                write!(f, "{number} is no interpolation; give ")?;
-                Interpolation::ALL.iter().enumerate().try_for_each(|(i, &of)| {
-                    let between = ["", ", ", ", ", " or "];
-                    write!(f, "{}{} ({of})", between[i], interpolation_number(of))
-                })
-            }
-            Self::Points(error) => error.fmt(f),
-        }
-    }
-}
-
-impl core::error::Error for PointsError {}
-
-/// A field whose points make no table.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WrongPoints {
-    /// The number of the field.
-    pub field: usize,
-    /// Its name.
-    pub name: &'static str,
-    /// Why the points make no table.
-    pub error: PointsError,
-}
-
-impl WrongPoints {
-    /// Of the field of this name among all.
-    #[doc(hidden)]
-    #[cold]
-    #[must_use]
-    pub fn of(fields: &[Field], name: &'static str, error: PointsError) -> Self {
-        Self { field: fields.iter().position(|field| field.name == name).unwrap_or(0), name, error }
-    }
-}
-
-impl fmt::Display for WrongPoints {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "`{}`: {}", self.name, self.error)
-    }
-}
-
-impl core::error::Error for WrongPoints {}
 
 /// 0, 1, …, and 0 at each of them, with straight lines between: the table that is 0.
 macro_rules! flat {

@@ -193,8 +193,8 @@ impl<I: Interface<N>, const N: usize> CoSimulation<I, N> {
         before != Some(value)
     }
 
-    /// Makes the tables, unless all are given as they were `before`: those of the unit have the bits that it was
-    /// packed with.
+    /// Makes the tables, unless all are given as they were `before`: those of the unit have the bits that it
+    /// was packed with.
     fn make_tables(&mut self, before: &Self) {
         let tables = I::System::FIELDS.iter().enumerate().filter(|(_, field)| field.is_table);
         let points = |(field, of): (usize, &Field)| {

@@ -170,9 +170,9 @@ fn step_size<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> Variable {
     Variable::new("step_size", &description, Place::StepSize, Role::Fixed, number(unit.step_size))
 }
 
-/// The numbers of a field: `mass`, or `friction[0]`, `friction[1]`, or `weights[0,0]` …; of a table those of its
-/// points, `thrust.x[0]` … and `thrust.y[0]` …, since its interpolation is the unit's. Its points are set before
-/// the run: one by one they may be wrong on the way.
+/// The numbers of a field: `mass`, or `friction[0]`, `friction[1]`, or `weights[0,0]` …; of a table those of
+/// its points, `thrust.x[0]` … and `thrust.y[0]` …, since its interpolation is the unit's. Its points are set
+/// before the run: one by one they may be wrong on the way.
 fn parameters<'a, I: Interface<N>, const N: usize>(
     unit: &'a Unit<I, N>,
     field: usize,

@@ -1,4 +1,5 @@
-//! A unit of a system with tables: their points are parameters, set before the run and looked at when it begins.
+//! A unit of a system with tables: their points are parameters, set before the run and looked at when it
+//! begins.
 
 mod importer;
 

@@ -1,5 +1,5 @@
-//! Systems of every kind that C can be given: with and without input, time, constraints and tables, in `f64` and
-//! `f32`, by three rules.
+//! Systems of every kind that C can be given: with and without input, time, constraints and tables, in `f64`
+//! and `f32`, by three rules.
 
 pub mod constrained;
 pub mod tables;

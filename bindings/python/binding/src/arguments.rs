@@ -7,7 +7,6 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyInt, PySequence, PyString};
 
 use crate::model::Kind;
-use crate::table;
 
 /// The array of `float64` that is given, whatever its shape.
 ///
@@ -261,9 +260,6 @@ pub fn of_shape(name: &str, expected: &str, found: &[usize]) -> PyErr {
 /// # Errors
 /// `TypeError`, `ValueError` and `OverflowError` where the field does not hold what is given.
 pub fn entries(field: &Field, like: Number, given: &Bound<'_, PyAny>) -> PyResult<Vec<Number>> {
-    if field.is_table {
-        return table::entries(field, like, given);
-    }
     let (numbers, shape) = typed(field, like, given)?;
     if shape == field.dimensions {
         return Ok(numbers);
@@ -281,9 +277,6 @@ pub fn entries_of_members(
     like: Number,
     given: &Bound<'_, PyAny>,
 ) -> PyResult<(Vec<Number>, usize)> {
-    if field.is_table {
-        return table::entries_of_members(field, like, given);
-    }
     let (numbers, shape) = typed(field, like, given)?;
     match shape.split_first() {
         Some((&members, rest)) if rest == field.dimensions => Ok((numbers, members)),

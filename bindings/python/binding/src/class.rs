@@ -8,12 +8,13 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::arguments::{
-    count, count_from, entries, number, real, require_callable, require_finite, text, time, vector,
+    count, count_from, number, real, require_callable, require_finite, text, time, vector,
 };
 use crate::arrays::to_array;
 use crate::checks::Region;
 use crate::ensemble;
 use crate::error::{of_events, of_memory, of_refusal, of_step, warn};
+use crate::given_fields::entries;
 use crate::linearization::Linearization;
 use crate::model::{Kind, Model, MotionGiven, Run as Asked};
 use crate::motion::{self, Along};

@@ -15,11 +15,12 @@ use pyo3::exceptions::{PyOSError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyModule};
 
-use crate::arguments::{self, array, entries_of_members, expected, input, of_shape, time};
+use crate::arguments::{self, array, expected, input, of_shape, time};
 use crate::arrays::to_array;
 use crate::crossings::Crossings;
 use crate::error::{of_member, of_memory, of_refusal};
 use crate::events::Event;
+use crate::given_fields::entries_of_members;
 use crate::many::{Asked, Control, FieldOfMembers, FoundOfMembers, Kept, NoResult, Rows, Written};
 use crate::model::{Kind, Model};
 use crate::offer::Stepping;

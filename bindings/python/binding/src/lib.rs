@@ -42,6 +42,7 @@ mod ensemble;
 mod error;
 #[doc(hidden)]
 pub mod events;
+mod given_fields;
 mod linearization;
 #[doc(hidden)]
 pub mod look;

@@ -13,8 +13,9 @@ use crate::pickled::{Reduced, reduced};
 
 /// A curve through points, for a field that is one.
 ///
-/// Made by `linear`, `spline` (not-a-knot), `monotone` or `periodic`, of x in increasing order and as many y. Beyond its ends it keeps its
-/// value, or goes on by its slope there, with `straight_beyond=True`. A call has its values.
+/// Made by `linear`, `spline` (not-a-knot), `monotone` or `periodic`, of x in increasing order and as many y.
+/// Beyond its ends it keeps its value, or goes on by its slope there, with `straight_beyond=True`. A call has
+/// its values.
 #[pyclass(frozen, eq)]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {

@@ -132,8 +132,8 @@ impl Scope {
                     "LOG10_E" => Number(std::f64::consts::LOG10_E),
                     "INFINITY" => Number(f64::INFINITY),
                     "NAN" => Number(f64::NAN),
-                    // A characteristic, and systems that have one; parameters by which lanes start, with nothing
-                    // from a sweep before.
+                    // A characteristic, and systems that have one; parameters by which lanes start, with
+                    // nothing from a sweep before.
                     "CAM" | "systems" | "segment" | "anchors" | "angles" | "reciprocals" => Many(Vec::new()),
                     name => panic!("{name} is not known"),
                 }

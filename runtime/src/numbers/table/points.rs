@@ -3,7 +3,8 @@
 use crate::numbers::{Curve, Scalar};
 
 /// The straight lines through points (x, y), which hold their value beyond the ends: for numbers that are
-/// plain data, and may change one by one. A [`Table`](crate::system::Table) is looked at once, when it is made.
+/// plain data, and may change one by one. A [`Table`](crate::system::Table) is looked at once, when it is
+/// made.
 ///
 /// Every evaluation looks at all points: where their x do not increase f is NaN, and a step an error that
 /// names the function.
