@@ -234,72 +234,77 @@ macro_rules! fields {
             $($(#[doc = $field_doc])* pub $field: $kind,)*
         }
 
+        #[allow(non_camel_case_types, trivial_bounds)]
         const _: () = {
-            /// What other languages fill in.
+            /// Filled in by other languages.
             #[derive(Clone, Copy, Debug, PartialEq)]
             #[repr(C)]
-            pub struct Given {
-                $(pub $field: <$kind as $crate::FieldType>::Given,)*
+            pub struct Given<$($field),*> {
+                $(pub $field: $field,)*
             }
 
-            const FIELDS: &[$crate::Field] = &[$($crate::Field {
-                name: stringify!($field),
-                name_for_c: match core::ffi::CStr::from_bytes_with_nul(concat!(stringify!($field), "\0").as_bytes()) {
-                    Ok(name) => name,
-                    Err(_) => unreachable!(),
-                },
-                documentation: &[$($field_doc),*],
-                base: <$kind as $crate::FieldType>::BASE,
-                dimensions: <$kind as $crate::FieldType>::DIMENSIONS,
-                is_table: <$kind as $crate::FieldType>::IS_TABLE,
-                offset: core::mem::offset_of!(Given, $field),
-            }),*];
-
-            $crate::fields! {
-                @implemented $name, Given, FIELDS, [$($doc),*] $($field: $kind;)*
+            impl<$($field: $crate::FieldType<Given = $field>),*> $crate::Fields for Given<$($field),*> {
+                type Given = Self;
+                const DOCUMENTATION: &'static [&'static str] = &[$($doc),*];
+                const FIELDS: &'static [$crate::Field] = &[$($crate::Field {
+                    name: stringify!($field),
+                    name_for_c: match core::ffi::CStr::from_bytes_with_nul(concat!(stringify!($field), "\0").as_bytes()) {
+                        Ok(name) => name,
+                        Err(_) => unreachable!(),
+                    },
+                    documentation: &[$($field_doc),*],
+                    base: <$field as $crate::FieldType>::BASE,
+                    dimensions: <$field as $crate::FieldType>::DIMENSIONS,
+                    is_table: <$field as $crate::FieldType>::IS_TABLE,
+                    offset: core::mem::offset_of!(Self, $field),
+                }),*];
+                $crate::fields! { @implemented $($field: $field;)* }
             }
-            $crate::fields! {
-                @implemented Given, Given, FIELDS, [$($doc),*] $($field: <$kind as $crate::FieldType>::Given;)*
+
+            // With the bounds a wrong type is said of the whole, not of each use.
+            impl $crate::Fields for $name
+            where
+                $($kind: $crate::FieldType),*
+            {
+                type Given = Given<$(<$kind as $crate::FieldType>::Given),*>;
+                const DOCUMENTATION: &'static [&'static str] = &[$($doc),*];
+                const FIELDS: &'static [$crate::Field] = <Self::Given as $crate::Fields>::FIELDS;
+                $crate::fields! { @implemented $($field: $kind;)* }
             }
         };
     };
-    (@implemented $name:ident, $given:ident, $fields:ident, [$($doc:expr),*] $($field:ident: $kind:ty;)*) => {
-        impl $crate::Fields for $name {
-            type Given = $given;
-            const DOCUMENTATION: &'static [&'static str] = &[$($doc),*];
-            const FIELDS: &'static [$crate::Field] = $fields;
-            const ZERO: Self = Self { $($field: <$kind as $crate::FieldType>::ZERO,)* };
+    (@implemented $($field:ident: $kind:ty;)*) => {
+        const ZERO: Self = Self { $($field: <$kind as $crate::FieldType>::ZERO,)* };
 
-            fn given(&self) -> $given {
-                $given { $($field: <$kind as $crate::FieldType>::given(&self.$field),)* }
-            }
+        fn given(&self) -> Self::Given {
+            Given { $($field: <$kind as $crate::FieldType>::given(&self.$field),)* }
+        }
 
-            fn of(given: &$given) -> Result<Self, $crate::WrongPoints> {
-                Ok(Self { $(
-                    $field: match <$kind as $crate::FieldType>::of(&given.$field) {
-                        Ok(field) => field,
-                        Err(error) => {
-                            let name = stringify!($field);
-                            let field = Self::FIELDS.iter().position(|field| field.name == name).unwrap_or(0);
-                            return Err($crate::WrongPoints { field, name, error });
-                        }
-                    },
-                )* })
-            }
+        fn of(given: &Self::Given) -> Result<Self, $crate::WrongPoints> {
+            Ok(Self { $(
+                $field: match <$kind as $crate::FieldType>::of(&given.$field) {
+                    Ok(field) => field,
+                    Err(error) => {
+                        let name = stringify!($field);
+                        let field = Self::FIELDS.iter().position(|field| field.name == name).unwrap_or(0);
+                        return Err($crate::WrongPoints { field, name, error });
+                    }
+                },
+            )* })
+        }
 
-            fn has_nan(&self) -> bool {
-                false $(|| <$kind as $crate::FieldType>::has_nan(&self.$field))*
-            }
+        fn has_nan(&self) -> bool {
+            false $(|| <$kind as $crate::FieldType>::has_nan(&self.$field))*
+        }
 
-            fn entry(&self, field: usize, index: usize) -> Option<$crate::Number> {
-                let name = Self::FIELDS.get(field)?.name;
-                None $(.or_else(|| if name == stringify!($field) { <$kind as $crate::FieldType>::entry(&self.$field, index) } else { None }))*
-            }
+        fn entry(&self, field: usize, index: usize) -> Option<$crate::Number> {
+            let name = Self::FIELDS.get(field)?.name;
+            None $(.or_else(|| if name == stringify!($field) { <$kind as $crate::FieldType>::entry(&self.$field, index) } else { None }))*
+        }
 
-            fn change_entry(&mut self, field: usize, index: usize, value: $crate::Number) -> bool {
-                let name = Self::FIELDS.get(field).map(|field| field.name);
-                false $(|| name == Some(stringify!($field)) && <$kind as $crate::FieldType>::change_entry(&mut self.$field, index, value))*
-            }
+        fn change_entry(&mut self, field: usize, index: usize, value: $crate::Number) -> bool {
+            let name = Self::FIELDS.get(field).map(|field| field.name);
+            false $(|| name == Some(stringify!($field)) && <$kind as $crate::FieldType>::change_entry(&mut self.$field, index, value))*
         }
     };
 }

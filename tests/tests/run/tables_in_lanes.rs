@@ -82,9 +82,7 @@ const HILL: Table<3> = match Table::monotone([-1.0, 0.3, 1.4], [0.2, 0.5, 0.9]) 
 impl Rider {
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
         let mut height = HILL.at(q[0]) * self.spring.at(q[1] - q[0]) + self.wave.at(q[0]);
-        for i in 0..2 {
-            height += 0.3 * self.wheels[i].cam.at(q[i]);
-        }
+        height += 0.3 * (self.wheels[0].cam.at(q[0]) + self.wheels[1].cam.at(q[1]));
         let table = if self.is_soft { &self.wheels[0].cam } else { &self.wheels[1].cam };
         height += table.at(self.k * q[1]) + self.lines.at(q[1]) * q[0];
         0.5 * (v[0] * v[0] + v[1] * v[1]) - 0.5 * self.k * (q[0] * q[0] + q[1] * q[1]) - height

@@ -1,4 +1,4 @@
-//! What Python gives for a field: numbers, arrays or a table.
+//! Fields as Python gives them: numbers, arrays or a table.
 
 use dalembert_face::{Field, Number};
 use pyo3::prelude::*;
