@@ -55,6 +55,41 @@ class Crossings:
     def __len__(self) -> int: ...
 
 @final
+class Table:
+    """A curve through points, for a field that is one."""
+
+    @staticmethod
+    def linear(x: _Numbers, y: _Numbers, *, straight_beyond: bool = False) -> Table:
+        """Straight lines between the points."""
+    @staticmethod
+    def spline(x: _Numbers, y: _Numbers, *, straight_beyond: bool = False) -> Table:
+        """Cubics with continuous second derivatives, as SciPy's CubicSpline."""
+    @staticmethod
+    def monotone(x: _Numbers, y: _Numbers, *, straight_beyond: bool = False) -> Table:
+        """Cubics that turn at points alone, as SciPy's PchipInterpolator."""
+    @staticmethod
+    def periodic(x: _Numbers, y: _Numbers) -> Table:
+        """The periodic spline, which goes on for ever; the last y is the first."""
+    @property
+    def x(self) -> _Array:
+        """The x of the points."""
+    @property
+    def y(self) -> _Array:
+        """The y of the points."""
+    @property
+    def interpolation(self) -> str:
+        """The interpolation between the points: "linear", "spline", "monotone" or "periodic"."""
+    @property
+    def straight_beyond(self) -> bool:
+        """Whether the curve goes on by its slope beyond its ends."""
+    @overload
+    def __call__(self, x: float) -> float: ...
+    @overload
+    def __call__(self, x: _Numbers) -> _Array:
+        """The values at x, a number or an array."""
+    def __eq__(self, other: object) -> bool: ...
+
+@final
 class Plane:
     """A plane that a run crosses: q·a + v·b = value."""
 
@@ -627,3 +662,23 @@ class Blocks(System):
         """Viscous friction, N s/m."""
     @c.setter
     def c(self, value: float) -> None: ...
+
+class Rocket(System):
+    """A rocket that rises in still air; q is its height in m."""
+
+    def __new__(cls, mass: float, thrust: Table, drag: Table) -> Self: ...
+    @property
+    def mass(self) -> float:
+        """Mass, kg."""
+    @mass.setter
+    def mass(self, value: float) -> None: ...
+    @property
+    def thrust(self) -> Table:
+        """Thrust in N over the time in s."""
+    @thrust.setter
+    def thrust(self, value: Table) -> None: ...
+    @property
+    def drag(self) -> Table:
+        """Drag in N over the speed in m/s."""
+    @drag.setter
+    def drag(self, value: Table) -> None: ...

@@ -118,6 +118,19 @@ pub(crate) trait InLane<'s, L: Lagrangian<N>, const N: usize> {
     fn alone(&mut self, stop: Stop<'_>) -> ControlFlow<()>;
 }
 
+/// `observe` for a run that is made again from its start: the first records were `seen`, and are not observed
+/// again.
+pub(crate) fn unseen<L: Lagrangian<N>, const N: usize>(
+    seen: u64,
+    mut observe: impl FnMut(&Record<'_, L, N>) -> ControlFlow<()>,
+) -> impl FnMut(&Record<'_, L, N>) -> ControlFlow<()> {
+    let mut records = 0;
+    move |record: &Record<'_, L, N>| {
+        records += 1;
+        if records > seen { observe(record) } else { ControlFlow::Continue(()) }
+    }
+}
+
 /// A member that is observed at its records.
 struct OnItsWay<'s, 'p, L: Lagrangian<N>, M, V, O, const N: usize> {
     by: &'p SideBySide<M, L::Scalar>,
@@ -167,12 +180,8 @@ where
 
     #[cold]
     fn alone(&mut self, stop: Stop<'_>) -> ControlFlow<()> {
-        let mut records = 0;
         let SideBySide { method, plan } = self.by;
-        let observe = |record: &Record<'_, L, N>| {
-            records += 1;
-            if records > self.seen { (self.observe)(self.value, record) } else { ControlFlow::Continue(()) }
-        };
+        let observe = unseen(self.seen, |record: &Record<'_, L, N>| (self.observe)(self.value, record));
         *self.failure = failed(plan.run(*method, (self.number, self.system, &self.start), observe, stop))?;
         ControlFlow::Continue(())
     }

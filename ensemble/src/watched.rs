@@ -9,7 +9,7 @@ use dalembert::step::{Flow, FlowInLanes, MethodOf};
 use dalembert::system::Scalar;
 use dalembert::{Discretise, Lagrangian, State};
 
-use crate::lanes::{InLane, SideBySide};
+use crate::lanes::{InLane, SideBySide, unseen};
 use crate::member::{End, Failure, MemberError, Record, caught};
 use crate::stepping::{OneByOne, Plan, Slot, Started, Stepping, one_by_one};
 use crate::study::Study;
@@ -365,14 +365,9 @@ where
 
     #[cold]
     fn alone(&mut self, stop: Stop<'_>) -> ControlFlow<()> {
-        let mut records = 0;
         let SideBySide { method, plan } = self.by.by;
         let Started { number, system, start, value, failure } = &mut *self.member;
-        let seen = self.seen;
-        let observe = |record: &Record<'_, L, N>| {
-            records += 1;
-            if records > seen { (self.observe)(value, record) } else { ControlFlow::Continue(()) }
-        };
+        let observe = unseen(self.seen, |record: &Record<'_, L, N>| (self.observe)(value, record));
         **failure = self.by.run((method, plan), (*number, system, start), observe, stop)?;
         ControlFlow::Continue(())
     }

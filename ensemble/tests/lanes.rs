@@ -1,5 +1,6 @@
 //! In lanes, members are what they are one by one: states, records, failures, and those that have arrived.
 
+use dalembert::system::{Interpolation, Table, TableSlice};
 use dalembert::{Discretise, Gauss, Midpoint, Splitting, State, StepError, rayleigh_system};
 use dalembert_ensemble::{Ensemble, Outcome, Record};
 use rand::{RngExt, SeedableRng};
@@ -226,4 +227,37 @@ fn runs_of_any_length_end_with_their_members() {
         assert_eq!(failed, study().ends(0..40).unwrap());
         assert!(failed.iter().all(Result::is_err));
     }
+}
+
+/// A cart on a curve of its own: another table, of another kind, for each member.
+#[rayleigh_system(lanes = midpoint)]
+fn cart(q: [f64; 2], v: [f64; 2], spring: Table<5>, drag: TableSlice<'static>) -> (f64, f64) {
+    let potential = spring.at(q[0]) + 0.5 * (q[0] * q[0] + q[1] * q[1] - q[0] * q[1]);
+    (0.5 * (v[0] * v[0] + v[1] * v[1]) - potential, 0.5 * drag.at(q[1]) * v[0] * v[0])
+}
+
+#[test]
+fn members_with_tables_of_their_own_are_their_own_runs() {
+    static X: [f64; 4] = [-1.0, -0.2, 0.5, 1.5];
+    let member = |number: u64| -> Result<(Cart, State<f64, 2>), StepError> {
+        let mut random = ChaCha8Rng::seed_from_u64(8);
+        random.set_stream(number);
+        let mut y = [0.0; 5].map(|_| random.random_range(-0.5..0.5));
+        y[4] = y[0];
+        // A linear one has a force that jumps, across which some steps have no solution.
+        let of = Interpolation::ALL[(1 + number % 3) as usize];
+        let spring = Table::through(of, [-1.5, -0.6, 0.1, 0.8, 1.6], y).expect("increasing x");
+        let drag = [0.1, 0.3, 0.2, 0.1].map(|y| y * (1 + number % 5) as f64);
+        let drag = TableSlice::linear(&X, &drag, vec![[0.0; 4]; 4].leak()).expect("increasing x");
+        let start = State { q: [0.4, -0.3].into(), p: [random.random_range(-1.0..1.0), 0.2].into() };
+        Ok((Cart { spring, drag }, start))
+    };
+    let study = || Ensemble::new(member).by(Midpoint, 0.05).steps(100);
+    let (ends, in_lanes) = (study().ends(0..300).unwrap(), study().in_lanes().ends(0..300).unwrap());
+    assert_eq!(ends, in_lanes);
+    assert!(ends.iter().all(Result::is_ok));
+    // The control: with the tables of the next member it is another motion.
+    let exchanged = |number: u64| Ok((member(number + 1)?.0, member(number)?.1));
+    let others = Ensemble::new(exchanged).by(Midpoint, 0.05).steps(100).in_lanes().ends(0..300).unwrap();
+    assert!(ends.iter().zip(&others).all(|(own, other)| own != other));
 }

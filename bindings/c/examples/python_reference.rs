@@ -3,6 +3,7 @@
 
 use dalembert::run::DrivenTrajectory;
 use dalembert::step::{Flow, MethodOf};
+use dalembert::system::{Interpolation, Table};
 use dalembert::{Discretise, Gauss, Lagrangian, Midpoint, Splitting, State, StepError, Trapezoidal};
 
 #[path = "../../python/src/cart_pole.rs"]
@@ -11,6 +12,8 @@ mod cart_pole;
 mod oscillator;
 #[path = "../../python/src/ring.rs"]
 mod ring;
+#[path = "../../python/src/rocket.rs"]
+mod rocket;
 #[path = "../../python/src/spherical_pendulum.rs"]
 mod spherical_pendulum;
 
@@ -18,6 +21,7 @@ use cart_pole::{CartPole, DrivenCartPole};
 use dalembert_face::fields as parameters;
 use oscillator::ShakenOscillator;
 use ring::Ring;
+use rocket::Rocket;
 use spherical_pendulum::SphericalPendulum;
 
 const RING: Ring = Ring { k: 1e-3 };
@@ -125,6 +129,29 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         print("spherical", &bob, run.time(), run.state())?;
         let lambda = bob.by(Midpoint, 0.01).reactions::<1>(&before, &step)?;
         println!("spherical_reactions {:016x}", lambda[0].to_bits());
+    }
+    for of in Interpolation::ALL {
+        rocket(of)?;
+    }
+    Ok(())
+}
+
+/// A rocket with tables of an interpolation, the drag straight beyond where it does not repeat itself.
+fn rocket(of: Interpolation) -> Result<(), Box<dyn std::error::Error>> {
+    let name = format!("rocket_{of}");
+    let drag = Table::through(of, [0.0, 10.0, 20.0, 35.0, 50.0, 80.0], [0.0, 4.0, 15.0, 40.0, 45.0, 0.0])?;
+    let rocket = Rocket {
+        mass: 2.0,
+        thrust: Table::through(of, [0.0, 0.25, 2.0, 2.25], [0.0, 60.0, 45.0, 0.0])?,
+        drag: if of == Interpolation::Periodic { drag } else { drag.straight_beyond() },
+    };
+    let view = rocket.at_time(0.25);
+    let start = State::from_velocity(&view, [0.0], [5.0])?;
+    let mut run = view.by(Midpoint, 0.05).run(start);
+    print(&name, &view, 0.25, &start)?;
+    for _ in 0..100 {
+        run.next().transpose()?;
+        print(&name, &view, 0.25 + run.time(), run.state())?;
     }
     Ok(())
 }

@@ -82,7 +82,7 @@ macro_rules! c_functions {
         pub mod $prefix {
             use super::*;
             // Types by their paths: the user's own may have the same names.
-            use $crate::boundary::{calls, constrained, machine, read};
+            use $crate::boundary::{calls, constrained, machine, read, tables};
             use $crate::dalembert::system::Scalar as _;
 
             const C_COORDINATES: usize = $crate::face::coordinates(core::marker::PhantomData::<fn() -> $system>);
@@ -103,6 +103,7 @@ macro_rules! c_functions {
             );
             type CScalar = <$system as $crate::face::Described<C_COORDINATES>>::Scalar;
             type CVector = [CScalar; C_COORDINATES];
+            type CFilled = <$system as $crate::face::Fields>::Given;
 
             /// The system as C sees it.
             pub enum CSystem {}
@@ -119,7 +120,7 @@ macro_rules! c_functions {
                 layout: LAYOUT,
                 documentation: <$system as $crate::face::Fields>::DOCUMENTATION,
                 fields: <$system as $crate::face::Fields>::FIELDS,
-                parameters_size: size_of::<$system>(),
+                parameters_size: size_of::<CFilled>(),
                 memory_size: size_of::<CMemory>,
                 scalar: <CScalar as $crate::face::FieldType>::BASE,
                 coordinates: C_COORDINATES,
@@ -163,7 +164,7 @@ macro_rules! c_functions {
                 memory: *mut CMemory,
                 size: usize,
                 layout: u64,
-                parameters: *const $system,
+                parameters: *const CFilled,
                 h: CScalar,
                 $($t: CScalar,)?
                 q: *const CVector,
@@ -271,10 +272,20 @@ macro_rules! c_functions {
             #[doc = "Goes on with other parameters."]
             pub unsafe extern "C" fn set_parameters(
                 memory: *mut CMemory,
-                parameters: *const $system,
+                parameters: *const CFilled,
             ) -> $crate::Status {
                 // SAFETY: the caller's promise.
                 unsafe { calls::set_parameters::<CSystem, C_COORDINATES>(memory, parameters) }
+            }
+
+            #[unsafe(export_name = concat!(stringify!($prefix), "_wrong_point"))]
+            #[doc = "The first table whose points make none, and which of them is wrong."]
+            pub unsafe extern "C" fn wrong_point(
+                parameters: *const CFilled,
+                wrong: *mut $crate::CWrongPoint,
+            ) -> $crate::Status {
+                // SAFETY: the caller's promise.
+                unsafe { tables::wrong_point::<CSystem, C_COORDINATES>(parameters, wrong) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_set_step_size"))]

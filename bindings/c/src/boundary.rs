@@ -13,11 +13,12 @@ use core::ptr::copy_nonoverlapping;
 
 use dalembert_face::Fields;
 
-use crate::{CReport, CViolation, Status};
+use crate::{CReport, CViolation, CWrongPoint, Status};
 
 pub mod calls;
 pub mod constrained;
 pub mod machine;
+pub mod tables;
 
 unsafe extern "C" {
     /// Defined nowhere: a program that can reach a panic does not link. See [`no_panic!`](crate::no_panic).
@@ -25,7 +26,7 @@ unsafe extern "C" {
 }
 
 /// Types every pattern of bits of which is a value, without padding that is read: numbers, arrays of them,
-/// and structs of such fields as [`parameters!`](crate::parameters) declares.
+/// and structs of such fields as [`parameters!`](crate::parameters) declares, tables by their points.
 ///
 /// # Safety
 /// Every initialised pattern of bits is a value of the type.
@@ -46,6 +47,9 @@ unsafe impl Plain for CReport {}
 // SAFETY: as CReport.
 unsafe impl Plain for CViolation {}
 
+// SAFETY: as CReport, and an address, which is read nowhere.
+unsafe impl Plain for CWrongPoint {}
+
 const _: () = assert!(size_of::<CReport>() == 32 && size_of::<CViolation>() == 16);
 
 // SAFETY: an array has no more than its elements.
@@ -56,9 +60,9 @@ unsafe impl<T: Plain, const K: usize> Plain for [T; K] {}
     message = "C does not know the fields of `{Self}`",
     note = "declare the struct in `dalembert_c::parameters! {{ … }}`"
 )]
-pub trait CParameters: Fields + Plain {}
+pub trait CParameters: Fields<Given: Plain> {}
 
-impl<P: Fields + Plain> CParameters for P {}
+impl<P: Fields<Given: Plain>> CParameters for P {}
 
 /// Copies the value at `address`.
 ///

@@ -8,6 +8,7 @@ use crate::Status;
 
 mod class;
 mod constrained;
+mod tables;
 
 /// The header that declares the functions of a system, as text: `HEADER.to_string()`.
 ///
@@ -91,7 +92,10 @@ impl Header {
     fn shared(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "#ifndef DALEMBERT_VERSION\n#define DALEMBERT_VERSION {VERSION}\n")?;
         f.write_str("/** How a call ended: DALEMBERT_OK, or why it changed nothing. */\ntypedef enum dalembert_status {\n")?;
-        let mut all = Status::ALL.iter().filter(|status| !status.is_of_constraints()).peekable();
+        let mut all = Status::ALL
+            .iter()
+            .filter(|status| !status.is_of_constraints() && !status.is_of_tables())
+            .peekable();
         while let Some(status) = all.next() {
             let comma = if all.peek().is_some() { "," } else { "" };
             writeln!(f, "    {} = {}{comma} /**< {status} */", status.name(), *status as i32)?;
@@ -103,7 +107,8 @@ impl Header {
             "#elif DALEMBERT_VERSION != {VERSION}\n#error \"headers of different versions of dalembert-c: write them with one\"\n\
              #endif /* DALEMBERT_VERSION */\n"
         )?;
-        self.shared_on_constraints(f)
+        self.shared_on_constraints(f)?;
+        self.shared_on_tables(f)
     }
 
     fn types(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -114,7 +119,7 @@ impl Header {
         writeln!(f, "typedef struct {prefix}_parameters {{")?;
         for field in self.fields {
             comment(f, "    ", field.documentation)?;
-            writeln!(f, "    {field};")?;
+            self.field(f, field)?;
         }
         writeln!(f, "}} {prefix}_parameters;\n")?;
         writeln!(
@@ -226,7 +231,8 @@ impl Header {
         writeln!(f, "dalembert_status {prefix}_set_step_size({prefix}_memory *memory, {scalar} h);\n")?;
         head(f, "What a status says: what happened and what to do.")?;
         writeln!(f, "const char *{prefix}_text(dalembert_status status);\n")?;
-        self.functions_on_constraints(f)
+        self.functions_on_constraints(f)?;
+        self.function_on_tables(f)
     }
 }
 

@@ -21,6 +21,12 @@
 //! | `p_nearest(parameters, t, q, v, nearest_q, nearest_v)` | the nearest state on all constraints |
 //! | `p_reactions(memory, lambda)` | λ of the last step |
 //!
+//! A system with a [`Table`](dalembert::system::Table) has, beside what is filled in for it,
+//!
+//! | function | what it does |
+//! |---|---|
+//! | `p_wrong_point(parameters, wrong)` | which point of which table is wrong |
+//!
 //! u is there where the force takes an input, t where L, R or f take the time. The chapter *In C* of
 //! `docs/embedding.md` is a control loop from the model to the numbers, and `examples/c/` the template.
 //!
@@ -57,5 +63,5 @@ mod status;
 
 pub use boundary::CParameters;
 pub use header::Header;
-pub use report::{CReport, CViolation};
+pub use report::{CReport, CViolation, CWrongPoint};
 pub use status::{Status, text};

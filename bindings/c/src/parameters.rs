@@ -1,8 +1,9 @@
-//! The struct of a system's parameters, the same in Rust and in C.
+//! The struct of a system's parameters, the same in Rust and in C, but for tables: C has their points.
 
-/// Declares the struct of a system whose fields C is to fill in, and lays it out as C does.
+/// Declares the struct of a system whose fields C is to fill in, and the one that C fills in for it.
 ///
-/// Fields are numbers (`f64`, `f32`, `i8` … `u64`) or arrays of them, of one or two dimensions; their
+/// Fields are numbers (`f64`, `f32`, `i8` … `u64`), arrays of them, of one or two dimensions, or
+/// [`Table`](dalembert::system::Table)s, which C gives as points with the interpolation between them; their
 /// documentation goes into the header. There is at least one, as C has no empty struct.
 ///
 /// ```
@@ -27,8 +28,9 @@ macro_rules! parameters {
             $vis struct $name { $($(#[doc = $field_doc])* pub $field: $kind),+ }
         }
 
-        // SAFETY: repr(C), and each field is a FieldType, so Plain; bytes between fields are not read.
+        // SAFETY: repr(C), and each field is what a FieldType is given as, so Plain; bytes between fields are
+        // not read.
         #[allow(unsafe_code)]
-        unsafe impl $crate::boundary::Plain for $name {}
+        unsafe impl $crate::boundary::Plain for <$name as $crate::face::Fields>::Given {}
     };
 }

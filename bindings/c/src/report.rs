@@ -1,7 +1,12 @@
-//! How a step went, and how far a state is off its constraints, as C reads it.
+//! How a step went, how far a state is off its constraints, and which point of a table is wrong, as C reads
+//! it.
+
+use core::ffi::c_char;
+use core::ptr;
 
 use dalembert::step::Report;
 use dalembert::system::{Scalar, Violation};
+use dalembert_face::{Field, WrongPoints};
 
 use crate::Status;
 
@@ -61,5 +66,31 @@ impl From<Option<Violation>> for CViolation {
             Some(Violation::Leaving { constraint, rate }) => (Status::LeavesConstraint, constraint, rate),
         };
         Self { amount, status: status as i32, constraint: constraint as u32 }
+    }
+}
+
+/// The first table whose points make none: `struct dalembert_wrong_point` of the header. See
+/// [`TableError`](dalembert::system::TableError).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct CWrongPoint {
+    /// The name of the field, ended by a zero byte; NULL where all tables are right.
+    pub table: *const c_char,
+    /// A status of tables, or [`Status::Ok`].
+    pub status: i32,
+    /// Which point, from 0; 0 where none is wrong by itself.
+    pub point: u32,
+}
+
+impl CWrongPoint {
+    /// The one that was found among these fields, if any.
+    #[must_use]
+    pub fn new(fields: &[Field], found: Option<WrongPoints>) -> Self {
+        let Some(wrong) = found else {
+            return Self { table: ptr::null(), status: Status::Ok as i32, point: 0 };
+        };
+        let table = fields.get(wrong.field).map_or(ptr::null(), |field| field.name_for_c.as_ptr());
+        let point = wrong.error.point().unwrap_or(0) as u32;
+        Self { table, status: Status::from(wrong) as i32, point }
     }
 }

@@ -4,7 +4,8 @@ use core::fmt;
 
 use dalembert::StepError;
 use dalembert::step::Quantity;
-use dalembert::system::Function;
+use dalembert::system::{Function, TableError};
+use dalembert_face::{PointsError, WrongPoints};
 
 macro_rules! statuses {
     ($($(#[doc = $doc:literal])* $name:ident = $number:literal, $c:literal, $text:literal;)*) => {
@@ -33,6 +34,11 @@ macro_rules! statuses {
             /// Whether a system without constraints cannot return it.
             pub(crate) const fn is_of_constraints(self) -> bool {
                 self as i32 >= Self::OffConstraint as i32 && self as i32 <= Self::NoDerivativeOfConstraint as i32
+            }
+
+            /// Whether a system without tables cannot return it.
+            pub(crate) const fn is_of_tables(self) -> bool {
+                self as i32 >= Self::PointsNotIncreasing as i32 && self as i32 <= Self::NoInterpolation as i32
             }
 
             /// The text for C: the cause and the remedy, in ASCII, ended by a zero byte.
@@ -112,6 +118,31 @@ statuses! {
     NotConvex = 31, "DALEMBERT_NOT_CONVEX", "friction falls with the velocity faster than a step of this size can follow: try a smaller step";
     /// A friction force that holds is at its limit.
     AtLimitOfFriction = 32, "DALEMBERT_AT_LIMIT_OF_FRICTION", "friction holds at its limit, so that the step has no derivative there: ask at another state";
+    /// The x of a table do not increase.
+    PointsNotIncreasing = 33, "DALEMBERT_POINTS_NOT_INCREASING", "an x of a table is not above the one before: sort the points by x, and keep one of each x; wrong_point says which";
+    /// A number of a table is NaN or infinite.
+    PointsNotFinite = 34, "DALEMBERT_POINTS_NOT_FINITE", "an x or y of a table is NaN or infinite, or an x infinitely far from the first: leave the point out; wrong_point says which";
+    /// A periodic table does not end as it begins.
+    PointsNotPeriodic = 35, "DALEMBERT_POINTS_NOT_PERIODIC", "the last y of a periodic table is not the first: end with the first point of the next turn; wrong_point says in which table";
+    /// The points of a table are too close for their values.
+    PointsTooSteep = 36, "DALEMBERT_POINTS_TOO_STEEP", "points of a table are too close for their values, so that a coefficient between them is beyond the largest number: leave one out; wrong_point says which";
+    /// A table has no interpolation, or too few points for it.
+    NoInterpolation = 37, "DALEMBERT_NO_INTERPOLATION", "the interpolation of a table is none of DALEMBERT_LINEAR, _SPLINE, _MONOTONE and _PERIODIC, or the table has too few points for it: periodic takes 3; wrong_point says which table";
+}
+
+impl From<WrongPoints> for Status {
+    #[cold]
+    fn from(wrong: WrongPoints) -> Self {
+        let PointsError::Points(error) = wrong.error else { return Self::NoInterpolation };
+        match error {
+            TableError::NotIncreasing { .. } => Self::PointsNotIncreasing,
+            TableError::KnotNotFinite { .. } | TableError::ValueNotFinite { .. } => Self::PointsNotFinite,
+            TableError::NotPeriodic { .. } => Self::PointsNotPeriodic,
+            TableError::TooSteep { .. } | TableError::SinglePrecision { .. } => Self::PointsTooSteep,
+            TableError::TooShort { .. } => Self::NoInterpolation,
+            _ => Self::Other,
+        }
+    }
 }
 
 impl From<StepError> for Status {

@@ -9,6 +9,7 @@ mod boundary {
     mod failed_steps;
     mod massless;
     mod random_calls;
+    mod tables;
     mod wrong_calls;
 }
 #[allow(dead_code)]
@@ -17,6 +18,7 @@ mod systems;
 use core::mem::{MaybeUninit, size_of};
 
 use dalembert_c::Status;
+use dalembert_c::face::Fields;
 use systems::{CartPole, cart_pole};
 
 /// What C gets from `static cart_pole_memory memory;`.
@@ -27,7 +29,7 @@ const PARAMETERS: CartPole = CartPole { cart: 1.0, rod: 0.3, half_length: 0.4, f
 /// `cart_pole_init` of the header.
 fn init(memory: &mut Memory, parameters: &CartPole, h: f64, q: [f64; 2], v: [f64; 2]) -> Status {
     let (size, layout) = (size_of::<Memory>(), cart_pole::HEADER.layout);
-    unsafe { cart_pole::init_with(memory.as_mut_ptr(), size, layout, parameters, h, &q, &v) }
+    unsafe { cart_pole::init_with(memory.as_mut_ptr(), size, layout, &parameters.given(), h, &q, &v) }
 }
 
 /// The present (q, p), bit by bit.

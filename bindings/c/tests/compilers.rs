@@ -10,6 +10,7 @@ mod compilers {
     mod constrained;
     mod programs;
     mod standards;
+    mod tables;
 }
 
 use std::fs;
@@ -35,11 +36,13 @@ fn those_that(tools: &[&'static str], what: &str, does: impl Fn(&str) -> bool) -
 /// A folder of this test's own with all headers.
 fn folder(name: &str) -> PathBuf {
     use systems::constrained::{rods, skate, spherical};
+    use systems::tables::{bead, rocket};
     use systems::{cart_pole, ring, swing, winch};
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::create_dir_all(&folder).expect("a folder beside the build");
     let of_free = [cart_pole::HEADER, ring::HEADER, swing::HEADER, winch::HEADER];
-    for header in of_free.into_iter().chain([spherical::HEADER, rods::HEADER, skate::HEADER]) {
+    let others = [spherical::HEADER, rods::HEADER, skate::HEADER, rocket::HEADER, bead::HEADER];
+    for header in of_free.into_iter().chain(others) {
         fs::write(folder.join(header.prefix).with_extension("h"), header.to_string()).expect("a header");
     }
     folder

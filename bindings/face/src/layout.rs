@@ -14,7 +14,7 @@ where
     S::Scalar: FieldType,
 {
     let words = [name, rule, <S::Scalar as FieldType>::BASE];
-    let sizes = [N, S::INPUTS, S::PARAMETERS.len(), S::TAKES_TIME as usize, size_of::<S>()];
+    let sizes = [N, S::INPUTS, S::PARAMETERS.len(), S::TAKES_TIME as usize, size_of::<S::Given>()];
     let hash = hashed(S::FIELDS, &words, &sizes);
     let hash = if S::CONSTRAINTS > 0 { with_number(hash, S::CONSTRAINTS) } else { hash };
     if S::OUTPUTS > 0 { with_number(with_text(hash, "outputs"), S::OUTPUTS) } else { hash }
@@ -24,9 +24,12 @@ const fn hashed(fields: &[Field], words: &[&str], sizes: &[usize]) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325;
     let mut i = 0;
     while i < fields.len() {
-        let Field { name, base, dimensions, offset, .. } = fields[i];
+        let Field { name, base, dimensions, is_table, offset, .. } = fields[i];
         hash = with_number(with_text(with_text(hash, name), base), offset);
         hash = with_numbers(hash, dimensions);
+        if is_table {
+            hash = with_text(hash, "table");
+        }
         i += 1;
     }
     let mut i = 0;

@@ -17,6 +17,8 @@ mod layout;
 mod mass;
 mod number;
 mod of_block;
+mod points;
+mod wrong_points;
 
 pub use columns::{ByInput, ByParameters, Column, by_state};
 pub use constraints::{Holding, Multipliers, Reacting, StepMade};
@@ -25,3 +27,5 @@ pub use interface::{By, Input, Interface, coordinates, start};
 pub use layout::layout;
 pub use number::Number;
 pub use of_block::{Events, Outputs};
+pub use points::Points;
+pub use wrong_points::{PointsError, WrongPoints, interpolation_number};

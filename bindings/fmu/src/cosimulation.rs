@@ -11,7 +11,7 @@ use dalembert::run::DrivenTrajectory;
 use dalembert::step::require_step_size;
 use dalembert::system::Scalar;
 use dalembert::{Lagrangian, State, nalgebra::SVector};
-use dalembert_face::{Described, Fields, Input, Interface, Number};
+use dalembert_face::{Described, Field, Fields, Input, Interface, Number, WrongPoints};
 
 use crate::Unit;
 use crate::model::Model;
@@ -23,6 +23,7 @@ const DRIFT: f64 = 1e-3;
 /// The part of a step below which what is left of a communication step is rounding.
 const ROUNDING: f64 = 1e-6;
 
+type Filled<I, const N: usize> = <<I as Interface<N>>::System as Fields>::Given;
 type Run<I, const N: usize> = DrivenTrajectory<<I as Interface<N>>::Kind, <I as Interface<N>>::Rule, N>;
 
 /// An instance of a unit.
@@ -32,7 +33,12 @@ pub struct CoSimulation<I: Interface<N>, const N: usize> {
     mode: Mode,
     start_time: f64,
     step_size: I::Scalar,
+    /// The fields as they were set.
+    given: Filled<I, N>,
+    /// The system that was last made of them.
     system: I::System,
+    /// Why the points of a table make none.
+    wrong: Option<WrongPoints>,
     input: Vec<I::Scalar>,
     /// (q, v) that the run begins at, on constraints at the nearest that is on them.
     start: [[I::Scalar; N]; 2],
@@ -98,7 +104,9 @@ impl<I: Interface<N>, const N: usize> Clone for CoSimulation<I, N> {
             mode: self.mode,
             start_time: self.start_time,
             step_size: self.step_size,
+            given: self.given,
             system: self.system,
+            wrong: self.wrong,
             input: self.input.clone(),
             start: self.start,
             run: self.run.clone(),
@@ -120,7 +128,9 @@ impl<I: Interface<N>, const N: usize> CoSimulation<I, N> {
             mode: Mode::Instantiated,
             start_time: 0.0,
             step_size: unit.step_size,
+            given: unit.parameters.given(),
             system: unit.parameters,
+            wrong: None,
             input: vec![I::Scalar::constant(0.0); I::System::INPUTS],
             start: unit.start,
             run: None,
@@ -151,6 +161,9 @@ impl<I: Interface<N>, const N: usize> CoSimulation<I, N> {
 
     /// (q, p) and v.
     fn motion(&self) -> Result<Motion<I::Scalar, N>, Refusal> {
+        if let Some(wrong) = self.wrong {
+            return Err(Refusal::Points(wrong));
+        }
         let system = self.undriven();
         let motion = match &self.run {
             Some(run) => run.state().velocity(&system).map(|v| (*run.state(), v)),
@@ -170,6 +183,32 @@ impl<I: Interface<N>, const N: usize> CoSimulation<I, N> {
 
     fn require(&self, mode: Mode) -> Result<(), Refusal> {
         if self.mode == mode { Ok(()) } else { Err(Refusal::NotNow(self.mode)) }
+    }
+
+    /// Changes a number of a field, a table's in what is given alone; returns whether it was another.
+    fn change_parameter(&mut self, field: usize, index: usize, value: Number) -> bool {
+        let before = self.given.entry(field, index);
+        self.given.change_entry(field, index, value);
+        self.system.change_entry(field, index, value);
+        before != Some(value)
+    }
+
+    /// Makes the tables, unless all are given as they were `before`: those of the unit have the bits that it
+    /// was packed with.
+    fn make_tables(&mut self, before: &Self) {
+        let tables = I::System::FIELDS.iter().enumerate().filter(|(_, field)| field.is_table);
+        let points = |(field, of): (usize, &Field)| {
+            let count: usize = of.dimensions.iter().product();
+            (0..count).map(move |index| (field, index))
+        };
+        let mut entries = tables.flat_map(points);
+        if entries.all(|(field, index)| self.given.entry(field, index) == before.given.entry(field, index)) {
+            return;
+        }
+        match I::System::of(&self.given) {
+            Ok(system) => (self.system, self.wrong) = (system, None),
+            Err(wrong) => self.wrong = Some(wrong),
+        }
     }
 
     fn set_value(&mut self, reference: u32, value: Number) -> Result<(), Refusal> {
@@ -200,10 +239,8 @@ impl<I: Interface<N>, const N: usize> CoSimulation<I, N> {
         let scalar = I::Scalar::constant(scalar);
         match variable.place {
             Place::Parameter { field, index } => {
-                let before = self.system.entry(field, index);
-                self.system.change_entry(field, index, value);
                 // Importers set again what has not changed.
-                if before != Some(value) {
+                if self.change_parameter(field, index, value) {
                     // What the run remembers is of the system before.
                     self.run = self.run.take().map(|run| DrivenTrajectory::resume(run.present()));
                     self.last = None;
@@ -238,7 +275,7 @@ impl<I: Interface<N>, const N: usize> Model for CoSimulation<I, N> {
                 Place::Time => Number::F64(self.time()),
                 Place::StepSize => number(self.step_size),
                 Place::Parameter { field, index } => {
-                    self.system.entry(field, index).expect("variables are listed from the fields")
+                    self.given.entry(field, index).expect("variables are listed from the fields")
                 }
                 Place::Input(i) => number(self.input[i]),
                 Place::Configuration(i) if self.is_as_set() => number(self.start[0][i]),
@@ -278,6 +315,7 @@ impl<I: Interface<N>, const N: usize> Model for CoSimulation<I, N> {
         for (&reference, &value) in references.iter().zip(values) {
             changed.set_value(reference, value)?;
         }
+        changed.make_tables(self);
         *self = changed;
         Ok(())
     }

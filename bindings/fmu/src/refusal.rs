@@ -3,6 +3,7 @@
 use std::fmt;
 
 use dalembert::StepError;
+use dalembert_face::WrongPoints;
 
 /// Why a call did nothing.
 #[derive(Clone, PartialEq)]
@@ -25,6 +26,8 @@ pub enum Refusal {
     NotSettable { name: String, mode: Mode },
     /// NaN, or infinity where that is no value.
     NotFinite { name: String },
+    /// The points of a table make none.
+    Points(WrongPoints),
     /// An output is NaN or infinite.
     Output { name: String, value: f64, time: f64 },
     /// Arrays of different lengths.
@@ -86,6 +89,7 @@ impl fmt::Display for Refusal {
             Self::AnotherType { name, kind } => write!(f, "{name} is of the type {kind}"),
             Self::NotSettable { name, mode } => write!(f, "{name} cannot be set while the unit is {mode}"),
             Self::NotFinite { name } => write!(f, "{name} was given a value that is no finite number"),
+            Self::Points(wrong) => write!(f, "the points of {wrong}"),
             Self::Output { name, value, time } => write!(
                 f,
                 "at time {time}: the output {name} is {value}, no finite number: `fn outputs` has no value at this state and \

@@ -15,7 +15,7 @@ pub use told::is_told;
 pub enum Place {
     Time,
     StepSize,
-    /// Number `index` of field `field`.
+    /// Number `index` of field `field`; of a table first the x, then the y.
     Parameter {
         field: usize,
         index: usize,
@@ -170,7 +170,9 @@ fn step_size<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> Variable {
     Variable::new("step_size", &description, Place::StepSize, Role::Fixed, number(unit.step_size))
 }
 
-/// The numbers of a field: `mass`, or `friction[0]`, `friction[1]`, or `weights[0,0]` ….
+/// The numbers of a field: `mass`, or `friction[0]`, `friction[1]`, or `weights[0,0]` …; of a table those of
+/// its points, `thrust.x[0]` … and `thrust.y[0]` …, since its interpolation is the unit's. Its points are set
+/// before the run: one by one they may be wrong on the way.
 fn parameters<'a, I: Interface<N>, const N: usize>(
     unit: &'a Unit<I, N>,
     field: usize,
@@ -185,16 +187,22 @@ fn parameters<'a, I: Interface<N>, const N: usize>(
         .map(|unit| unit.trim().to_owned())
         .collect();
     let entry = move |index| unit.parameters.entry(field, index);
-    (0..).map_while(move |index| entry(index).map(|start| (index, start))).map(move |(index, start)| {
+    let count = of.dimensions.iter().product();
+    (0..count).map_while(move |index| entry(index).map(|start| (index, start))).map(move |(index, start)| {
         let name = match *of.dimensions {
+            [_, points] if of.is_table => {
+                format!("{}.{}[{}]", of.name, ["x", "y"][index / points], index % points)
+            }
             [_, columns] => format!("{}[{},{}]", of.name, index / columns, index % columns),
             [_] => format!("{}[{index}]", of.name),
             _ => of.name.to_owned(),
         };
-        let place = Place::Parameter { field, index };
-        let mut variable = Variable::new(name, text.join(" ").trim(), place, Role::Tunable, start);
-        // One unit for all numbers of an array, or one each.
-        variable.unit = units.get(index).or(units.last()).cloned();
+        let (place, role) =
+            (Place::Parameter { field, index }, if of.is_table { Role::Fixed } else { Role::Tunable });
+        let mut variable = Variable::new(name, text.join(" ").trim(), place, role, start);
+        // One unit for all numbers of an array, or one each; of a table one for the x, one for the y.
+        let which = if of.is_table { 2 * index / count } else { index };
+        variable.unit = units.get(which).or(units.last()).cloned();
         variable
     })
 }

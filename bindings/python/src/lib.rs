@@ -6,6 +6,7 @@ mod double_pendulum;
 mod henon_heiles;
 mod oscillator;
 mod ring;
+mod rocket;
 mod spherical_pendulum;
 
 use blocks::Blocks;
@@ -15,6 +16,7 @@ use double_pendulum::DoublePendulum;
 use henon_heiles::HenonHeiles;
 use oscillator::ShakenOscillator;
 use ring::Ring;
+use rocket::Rocket;
 use spherical_pendulum::SphericalPendulum;
 
 dalembert_python::module!(dalembert_scenes {
@@ -25,4 +27,5 @@ dalembert_python::module!(dalembert_scenes {
     CartPole,
     SphericalPendulum,
     Blocks,
+    Rocket,
 });

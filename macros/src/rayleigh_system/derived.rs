@@ -36,7 +36,7 @@ pub use kernel::{Explicit, Kernel};
 pub use kinks::{Fault, Kinks};
 pub use missing::Places;
 pub use routine::{Kind, Of, Routine};
-pub use stages::{CHARACTERISTIC, CONDITIONAL, Stages};
+pub use stages::{CONDITIONAL, Stages};
 
 /// The functions of a system whose derivatives are written out.
 pub struct Derived {

@@ -47,6 +47,8 @@ pub struct StraightLine {
     pub names: BTreeSet<&'static str>,
     /// Values that code on members has from before it runs.
     pub fields: Vec<Field>,
+    /// Whether code on members reads curves of their systems.
+    pub reads_systems: bool,
     /// How many angles and reciprocals start from those of the sweep before.
     pub anchors: [usize; 2],
     /// The first word of each parameter that occurs.
@@ -155,7 +157,7 @@ impl Writing<'_> {
         let (mut statements, mut later) = (TokenStream::new(), TokenStream::new());
         let (mut uses_coordinates, mut uses_velocities, mut uses_inputs) = (false, false, false);
         let mut parameters = Vec::new();
-        let mut fields = Vec::new();
+        let (mut fields, mut reads_systems) = (Vec::new(), false);
         for &node in nodes.iter().filter(|node| is_known[node.index()]) {
             let name = writer.names.of(graph, node, &writer.locals);
             writer.locals[node.index()] = Some(name.clone());
@@ -176,6 +178,9 @@ impl Writing<'_> {
                 operation if operation.receiver().is_some() => true,
                 operation => operation.arguments().any(|argument| writer.typed[argument.index()]),
             };
+            let is_of_each_member =
+                matches!(operation, Operation::Characteristic(curve, _) if writer.is_of_each_member(curve));
+            reads_systems |= is_of_each_member;
             if let Some(late) = late {
                 is_late[node.index()] =
                     late.contains(&node) || operation.arguments().any(|argument| is_late[argument.index()]);
@@ -184,6 +189,7 @@ impl Writing<'_> {
                     || matches!(operation, Operation::Coordinate(_) | Operation::Velocity(_))
                     || graph.is_time(operation)
                     || is_of_members(operation)
+                    || is_of_each_member
                     || operation.arguments().any(|argument| writer.is_lanes[argument.index()]);
             }
             match operation {
@@ -235,6 +241,7 @@ impl Writing<'_> {
             calls_elementary,
             names: writer.runtime.into_inner(),
             fields,
+            reads_systems,
             anchors: writer.anchors,
             parameters,
         }

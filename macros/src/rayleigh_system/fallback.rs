@@ -199,7 +199,7 @@ fn stubs(
     let gathered = lanes.words().next().map(|_| {
         quote! {
             impl ::dalembert::generated::Gathered<#n> for #name {
-                type Fields<const W: usize> = ();
+                type Fields<'s, const W: usize> = () where Self: 's;
                 fn fields<const W: usize>(_: [&Self; W]) {}
             }
         }
@@ -262,8 +262,8 @@ fn explicit_stubs(
     let in_lanes = is_in_lanes.then(|| {
         quote! {
             impl ::dalembert::generated::ExplicitInLanes<#n> for #name {
-                fn velocity_momenta_in_lanes<const W: usize>(_: &(), _: &#members, _: #scalar) -> [#members; 2] { ::core::unreachable!() }
-                fn configuration_force_in_lanes<const W: usize>(_: &(), _: &#members) -> #members { ::core::unreachable!() }
+                fn velocity_momenta_in_lanes<'s, const W: usize>(_: &(), _: &#members, _: #scalar) -> [#members; 2] where Self: 's { ::core::unreachable!() }
+                fn configuration_force_in_lanes<'s, const W: usize>(_: &(), _: &#members) -> #members where Self: 's { ::core::unreachable!() }
             }
         }
     });
@@ -282,8 +282,8 @@ fn midpoint_stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream) -> T
     let members = quote!(::dalembert::generated::MemberVector<#scalar, #n, W>);
     quote! {
         impl ::dalembert::generated::DiscreteInLanes<::dalembert::generated::Midpoint, #n> for #name {
-            fn step_kernel_in_lanes<const W: usize>(_: &(), _: &#members, _: &#members, _: #scalar) -> (#members, [#members; #n]) { ::core::unreachable!() }
-            fn momenta_in_lanes<const W: usize>(_: &(), _: &#members, _: &#members, _: #scalar) -> [#members; 2] { ::core::unreachable!() }
+            fn step_kernel_in_lanes<'s, const W: usize>(_: &(), _: &#members, _: &#members, _: #scalar) -> (#members, [#members; #n]) where Self: 's { ::core::unreachable!() }
+            fn momenta_in_lanes<'s, const W: usize>(_: &(), _: &#members, _: &#members, _: #scalar) -> [#members; 2] where Self: 's { ::core::unreachable!() }
         }
     }
 }
@@ -295,8 +295,8 @@ fn gauss_stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream) -> Toke
         impl ::dalembert::generated::ForcedLagrangianInLanes<#n> for #name {
             type Kept<const W: usize> = ();
             type AnchorsInLanes<const W: usize> = ();
-            fn rates_in_lanes<const W: usize>(_: &(), _: &mut (), _: &#members, _: &#members) -> (#members, ()) { ::core::unreachable!() }
-            fn corrections_in_lanes<const W: usize>(_: &(), _: &(), _: &#members, _: &#members) -> [#members; 2] { ::core::unreachable!() }
+            fn rates_in_lanes<'s, const W: usize>(_: &(), _: &mut (), _: &#members, _: &#members) -> (#members, ()) where Self: 's { ::core::unreachable!() }
+            fn corrections_in_lanes<'s, const W: usize>(_: &(), _: &(), _: &#members, _: &#members) -> [#members; 2] where Self: 's { ::core::unreachable!() }
         }
     }
 }

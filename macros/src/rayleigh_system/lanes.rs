@@ -2,7 +2,7 @@
 
 use syn::Ident;
 
-use super::derived::{CHARACTERISTIC, CONDITIONAL, Derived};
+use super::derived::{CONDITIONAL, Derived};
 use super::diagnostics::{Mistake, Report};
 use super::model::{Engine, System};
 use super::rules::Rule;
@@ -41,17 +41,14 @@ pub fn check(system: &System<'_>, report: &mut Report) {
 
 /// Reports what the expressions show: why steps are not explicit, or the derivatives are not for lanes.
 pub fn check_derived(system: &System<'_>, derived: &Derived, report: &mut Report) {
-    let reads_characteristic = || derived.graph.reads_characteristic(derived.graph.nodes());
     if let (Some(word), false) = (&system.lanes.explicit, derived.has_explicit_lanes()) {
-        refuse(word, why_implicit(&derived.findings, reads_characteristic()), report);
+        refuse(word, why_implicit(&derived.findings), report);
     }
     if let (Some(word), false) = (&system.lanes.midpoint, derived.has_midpoint_lanes()) {
-        refuse(word, if reads_characteristic() { CHARACTERISTIC } else { CONDITIONAL }, report);
+        refuse(word, CONDITIONAL, report);
     }
-    match (&system.lanes.gauss, &derived.stages) {
-        (Some(word), Some(Err(lacks))) => refuse(word, lacks, report),
-        (Some(word), Some(Ok(stages))) if stages.in_lanes.is_none() => refuse(word, CHARACTERISTIC, report),
-        _ => {}
+    if let (Some(word), Some(Err(lacks))) = (&system.lanes.gauss, &derived.stages) {
+        refuse(word, lacks, report);
     }
 }
 
@@ -59,11 +56,8 @@ fn refuse(word: &Ident, lacks: &'static str, report: &mut Report) {
     report.at(word, Mistake::Lanes { word: word.to_string(), lacks });
 }
 
-fn why_implicit(findings: &Findings, reads_characteristic: bool) -> &'static str {
-    let is_explicit = findings.newton.iter().any(|newton| newton.is_explicit);
-    if is_explicit && reads_characteristic {
-        CHARACTERISTIC
-    } else if is_explicit {
+fn why_implicit(findings: &Findings) -> &'static str {
+    if findings.newton.iter().any(|newton| newton.is_explicit) {
         "reads all fields before the run, and the force reads one within a condition, where it may panic; read it before the condition"
     } else if !findings.constant_mass_matrix {
         "needs explicit steps, and ∂²L/∂v² is not constant: L has to be ½vᵀMv − V(q)"

@@ -41,8 +41,8 @@ fn names(tokens: TokenStream, in_constant: bool, found: &mut BTreeSet<String>) {
                 if name == "trait" {
                     found.insert(word(index + 1));
                 }
-                // fn over<D: …>(…)
-                if name == "fn" && word(index + 2) == "<" {
+                // fn over<D: …>(…), and no lifetime
+                if name == "fn" && word(index + 2) == "<" && word(index + 3) != "'" {
                     found.insert(word(index + 3));
                 }
             }

@@ -50,22 +50,20 @@ fn ring() {
 
 #[test]
 fn characteristic() {
-    let expansion = rayleigh_system(
-        Runtime::STD,
-        quote!(),
-        quote! {
-            impl Follower {
-                fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
-                    let lift = self.cam.at(q[0]);
-                    0.5 * v[0] * v[0] - 0.5 * self.k * lift * lift
-                }
-                fn rayleigh(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
-                    0.5 * Self::DRAG.at(q[0]) * v[0] * v[0]
-                }
+    let item = quote! {
+        impl Follower {
+            fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+                let lift = self.cam.at(q[0]);
+                0.5 * v[0] * v[0] - 0.5 * self.k * lift * lift
             }
-        },
-    );
-    assert_snapshot("characteristic.rs", &formatted(expansion));
+            fn rayleigh(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+                0.5 * Self::DRAG.at(q[0]) * v[0] * v[0]
+            }
+        }
+    };
+    assert_snapshot("characteristic.rs", &formatted(rayleigh_system(Runtime::STD, quote!(), item.clone())));
+    // In lanes: each member's own curve, and one that all have.
+    assert_snapshot("characteristic_in_lanes.rs", &of_members(quote!(lanes = midpoint), item));
 }
 
 #[test]

@@ -114,6 +114,8 @@ fn numbers(random: &mut Random) -> HashMap<String, Value> {
     for name in of_directions.into_iter().chain(["h", "elapsed", "self.m", "self.k", "self.t"]) {
         names.insert(name.to_owned(), Value::Number(number()));
     }
+    // A characteristic.
+    names.insert("self.cam".to_owned(), Value::Many(Vec::new()));
     names.insert("self.u".to_owned(), Value::vector(&[number()]));
     names.insert("p".to_owned(), names["momenta"].clone());
     for name in ["q0", "v", "h"] {

@@ -88,9 +88,21 @@ impl<T: Copy, const W: usize> Members<T, W> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn on(self, curve: &(impl Curve<T> + ?Sized)) -> [Self; 4] {
+        self.of_member(|_, x| curve.derivatives(x))
+    }
+
+    /// The derivatives of a curve of each system's own, member by member.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[must_use]
+    pub fn on_each<L>(self, systems: &[&L; W], derivatives: impl Fn(&L, T) -> [T; 4]) -> [Self; 4] {
+        self.of_member(|i, x| derivatives(systems[i], x))
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn of_member(self, derivatives: impl Fn(usize, T) -> [T; 4]) -> [Self; 4] {
         let mut all = [self; 4];
         each_member!(i => {
-            let [f, f1, f2, f3] = curve.derivatives(self.0[i]);
+            let [f, f1, f2, f3] = derivatives(i, self.0[i]);
             (all[0].0[i], all[1].0[i], all[2].0[i], all[3].0[i]) = (f, f1, f2, f3);
         });
         all

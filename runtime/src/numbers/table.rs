@@ -23,6 +23,13 @@ enum Beyond {
     Repeated,
 }
 
+impl Beyond {
+    /// The course that an interpolation has unless it is told otherwise.
+    const fn after(of: Interpolation) -> Self {
+        if matches!(of, Interpolation::Periodic) { Self::Repeated } else { Self::Held }
+    }
+}
+
 /// A curve through K points, which it holds: an array of knots and one of cubics, without `std`.
 ///
 /// | made by | between the points | continuous | |
@@ -64,6 +71,7 @@ enum Beyond {
 pub struct Table<const K: usize, T = f64> {
     knots: [T; K],
     pieces: [[T; 4]; K],
+    of: Interpolation,
     beyond: Beyond,
 }
 
@@ -94,7 +102,7 @@ pub struct TableSlice<'t, T = f64> {
 
 /// The constructors, of which there is one for each interpolation, of both kinds of tables.
 macro_rules! constructors {
-    ($($(#[$doc:meta])* $name:ident $kind:ident $beyond:ident;)*) => {
+    ($($(#[$doc:meta])* $name:ident $kind:ident;)*) => {
         /// Constructors, which a constant may call.
         impl<const K: usize> Table<K> {
             $(
@@ -105,13 +113,22 @@ macro_rules! constructors {
                 /// [`TableError`]: the first x that is not above the one before, the first number that is NaN
                 /// or infinite, too few points, or a slope beyond the largest number.
                 pub const fn $name(x: [f64; K], y: [f64; K]) -> Result<Self, TableError> {
-                    let mut pieces = [[0.0; 4]; K];
-                    match pieces::fill(Interpolation::$kind, &x, &y, &mut pieces) {
-                        Ok(()) => Ok(Self { knots: x, pieces, beyond: Beyond::$beyond }),
-                        Err(error) => Err(error),
-                    }
+                    Self::through(Interpolation::$kind, x, y)
                 }
             )*
+
+            /// The table of an interpolation that is known when the program runs.
+            ///
+            /// # Errors
+            ///
+            /// [`TableError`]: those of the constructor of that name.
+            pub const fn through(of: Interpolation, x: [f64; K], y: [f64; K]) -> Result<Self, TableError> {
+                let mut pieces = [[0.0; 4]; K];
+                match pieces::fill(of, &x, &y, &mut pieces) {
+                    Ok(()) => Ok(Self { knots: x, pieces, of, beyond: Beyond::after(of) }),
+                    Err(error) => Err(error),
+                }
+            }
         }
 
         /// Constructors: `pieces`, as long as x and y, is written over.
@@ -127,26 +144,40 @@ macro_rules! constructors {
                     y: &[f64],
                     pieces: &'t mut [[f64; 4]],
                 ) -> Result<Self, TableError> {
-                    match pieces::fill(Interpolation::$kind, x, y, pieces) {
-                        Ok(()) => Ok(Self { knots: x, pieces, beyond: Beyond::$beyond }),
-                        Err(error) => Err(error),
-                    }
+                    Self::through(Interpolation::$kind, x, y, pieces)
                 }
             )*
+
+            /// The table of an interpolation that is known when the program runs.
+            ///
+            /// # Errors
+            ///
+            /// [`TableError`]: those of the constructor of that name.
+            pub const fn through(
+                of: Interpolation,
+                x: &'t [f64],
+                y: &[f64],
+                pieces: &'t mut [[f64; 4]],
+            ) -> Result<Self, TableError> {
+                match pieces::fill(of, x, y, pieces) {
+                    Ok(()) => Ok(Self { knots: x, pieces, beyond: Beyond::after(of) }),
+                    Err(error) => Err(error),
+                }
+            }
         }
     };
 }
 constructors! {
     /// Straight lines between the points, at least two of them.
-    linear Linear Held;
+    linear Linear;
     /// The cubics whose second derivatives are continuous, and the third ones at the second knot from either
     /// end: the not-a-knot spline. Of three points it is a parabola, of two a line.
-    spline Spline Held;
+    spline Spline;
     /// Cubics that rise and fall where the points do, and turn at points alone (Fritsch and Butland).
-    monotone Monotone Held;
+    monotone Monotone;
     /// The periodic spline, of at least three points; the last is the first of the next turn, and has its
     /// value.
-    periodic Periodic Repeated;
+    periodic Periodic;
 }
 
 impl<const K: usize> Table<K> {
@@ -158,7 +189,7 @@ impl<const K: usize> Table<K> {
     pub const fn single(&self) -> Result<Table<K, f32>, TableError> {
         let (mut knots, mut pieces) = ([0.0; K], [[0.0; 4]; K]);
         match pieces::round((&self.knots, &self.pieces), (&mut knots, &mut pieces)) {
-            Ok(()) => Ok(Table { knots, pieces, beyond: self.beyond }),
+            Ok(()) => Ok(Table { knots, pieces, of: self.of, beyond: self.beyond }),
             Err(error) => Err(error),
         }
     }
@@ -200,6 +231,24 @@ impl<const K: usize, T: Scalar> Table<K, T> {
     #[must_use]
     pub const fn knots(&self) -> &[T; K] {
         &self.knots
+    }
+
+    /// The y of the points, in order.
+    #[must_use]
+    pub fn values(&self) -> [T; K] {
+        self.pieces.map(|[value, ..]| value)
+    }
+
+    /// The interpolation between the points.
+    #[must_use]
+    pub const fn interpolation(&self) -> Interpolation {
+        self.of
+    }
+
+    /// Whether the table goes on by the slope at its ends.
+    #[must_use]
+    pub const fn is_straight_beyond(&self) -> bool {
+        matches!(self.beyond, Beyond::Straight)
     }
 
     /// f(x).

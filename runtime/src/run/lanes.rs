@@ -25,18 +25,22 @@ pub use told::ToldRun;
 )]
 pub trait ExplicitInLanes<const N: usize>: Gathered<N> + Explicit<N> {
     /// [`velocity_momenta`](Explicit::velocity_momenta) of each member, p0 and p1, to the last bit.
-    fn velocity_momenta_in_lanes<const W: usize>(
-        fields: &Self::Fields<W>,
+    fn velocity_momenta_in_lanes<'s, const W: usize>(
+        fields: &Self::Fields<'s, W>,
         v: &MemberVector<Self::Scalar, N, W>,
         h: Self::Scalar,
-    ) -> [MemberVector<Self::Scalar, N, W>; 2];
+    ) -> [MemberVector<Self::Scalar, N, W>; 2]
+    where
+        Self: 's;
 
     /// [`configuration_force`](Explicit::configuration_force) of each member, whose time `fields` has, to the
     /// last bit.
-    fn configuration_force_in_lanes<const W: usize>(
-        fields: &Self::Fields<W>,
+    fn configuration_force_in_lanes<'s, const W: usize>(
+        fields: &Self::Fields<'s, W>,
         q: &MemberVector<Self::Scalar, N, W>,
-    ) -> MemberVector<Self::Scalar, N, W>;
+    ) -> MemberVector<Self::Scalar, N, W>
+    where
+        Self: 's;
 }
 
 impl<'a, L, M, const N: usize, const W: usize> LaneRuns<'a, L, M, N, W>

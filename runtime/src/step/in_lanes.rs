@@ -24,20 +24,24 @@ pub trait DiscreteInLanes<R, const N: usize>:
 {
     /// [`step_kernel`](crate::rules::Fused::step_kernel) of each member, p0 and the entries of the matrix, to
     /// the last bit.
-    fn step_kernel_in_lanes<const W: usize>(
-        fields: &Self::Fields<W>,
+    fn step_kernel_in_lanes<'s, const W: usize>(
+        fields: &Self::Fields<'s, W>,
         q0: &MemberVector<Self::Scalar, N, W>,
         v: &MemberVector<Self::Scalar, N, W>,
         h: Self::Scalar,
-    ) -> KernelOfMembers<Self::Matrix, Self::Scalar, N, W>;
+    ) -> KernelOfMembers<Self::Matrix, Self::Scalar, N, W>
+    where
+        Self: 's;
 
     /// [`momenta`](crate::rules::Fused::momenta) of each member, p0 and p1, to the last bit.
-    fn momenta_in_lanes<const W: usize>(
-        fields: &Self::Fields<W>,
+    fn momenta_in_lanes<'s, const W: usize>(
+        fields: &Self::Fields<'s, W>,
         q0: &MemberVector<Self::Scalar, N, W>,
         v: &MemberVector<Self::Scalar, N, W>,
         h: Self::Scalar,
-    ) -> [MemberVector<Self::Scalar, N, W>; 2];
+    ) -> [MemberVector<Self::Scalar, N, W>; 2]
+    where
+        Self: 's;
 }
 
 /// p0 of each member, and the entries of its matrix.

@@ -90,20 +90,24 @@ pub trait ForcedLagrangianInLanes<const N: usize>: Gathered<N> + ForcedLagrangia
 
     /// g = ∂L/∂q + f_L of each member at one stage, whose time `fields` has, and what its correction needs:
     /// as in [`stages_in_time`](ForcedLagrangian::stages_in_time), to the last bit.
-    fn rates_in_lanes<const W: usize>(
-        fields: &Self::Fields<W>,
+    fn rates_in_lanes<'s, const W: usize>(
+        fields: &Self::Fields<'s, W>,
         anchors: &mut Self::AnchorsInLanes<W>,
         q: &MemberVector<Self::Scalar, N, W>,
         v: &MemberVector<Self::Scalar, N, W>,
-    ) -> (MemberVector<Self::Scalar, N, W>, Self::Kept<W>);
+    ) -> (MemberVector<Self::Scalar, N, W>, Self::Kept<W>)
+    where
+        Self: 's;
 
     /// p − ∂L/∂v and (∂²L/∂v²)⁻¹ (p − ∂L/∂v) of each member at the stage that `kept` is of, to the last bit.
-    fn corrections_in_lanes<const W: usize>(
-        fields: &Self::Fields<W>,
+    fn corrections_in_lanes<'s, const W: usize>(
+        fields: &Self::Fields<'s, W>,
         kept: &Self::Kept<W>,
         v: &MemberVector<Self::Scalar, N, W>,
         p: &MemberVector<Self::Scalar, N, W>,
-    ) -> [MemberVector<Self::Scalar, N, W>; 2];
+    ) -> [MemberVector<Self::Scalar, N, W>; 2]
+    where
+        Self: 's;
 }
 
 /// The stages one after the other.

@@ -1,17 +1,6 @@
 use dalembert::rayleigh_system;
 use dalembert::system::Table;
 
-struct InLanes {
-    drag: Table<4>,
-}
-
-#[rayleigh_system(rule = [midpoint, trapezoidal, gauss], lanes = [explicit, midpoint, gauss])]
-impl InLanes {
-    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
-        0.5 * v[0] * v[0] - self.drag.at(q[0])
-    }
-}
-
 struct Parameter {
     drag: Table<4>,
 }

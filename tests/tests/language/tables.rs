@@ -18,18 +18,10 @@ struct Case {
 
 /// The table through the points, in memory that stays.
 fn table(of: Interpolation, x: &[f64], y: &[f64]) -> Result<TableSlice<'static>, TableError> {
-    let make = match of {
-        Interpolation::Linear => TableSlice::linear,
-        Interpolation::Spline => TableSlice::spline,
-        Interpolation::Monotone => TableSlice::monotone,
-        Interpolation::Periodic => TableSlice::periodic,
-        other => panic!("{other}"),
-    };
-    make(x.to_vec().leak(), y, vec![[0.0; 4]; x.len()].leak())
+    TableSlice::through(of, x.to_vec().leak(), y, vec![[0.0; 4]; x.len()].leak())
 }
 
-const ALL: [Interpolation; 4] =
-    [Interpolation::Linear, Interpolation::Spline, Interpolation::Monotone, Interpolation::Periodic];
+const ALL: [Interpolation; 4] = Interpolation::ALL;
 
 /// The largest difference from SciPy's, over the largest derivative of its order, or what rounding a y makes
 /// of it.

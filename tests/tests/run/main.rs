@@ -29,6 +29,7 @@ mod splitting;
 mod splitting_conditions;
 mod stick_slip;
 mod stopped;
+mod tables_in_lanes;
 mod timed_lanes;
 mod timed_splitting;
 mod tolerance;

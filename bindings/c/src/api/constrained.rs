@@ -8,7 +8,7 @@ macro_rules! c_functions_on_constraints {
         #[unsafe(export_name = concat!(stringify!($prefix), "_violation"))]
         #[doc = "The first constraint that (q, v) violates, and by how much."]
         pub unsafe extern "C" fn violation(
-            parameters: *const $system,
+            parameters: *const CFilled,
             $($t: CScalar,)?
             q: *const CVector,
             v: *const CVector,
@@ -22,7 +22,7 @@ macro_rules! c_functions_on_constraints {
         #[unsafe(export_name = concat!(stringify!($prefix), "_nearest"))]
         #[doc = "The configuration and velocity on all constraints that are nearest to (q, v)."]
         pub unsafe extern "C" fn nearest(
-            parameters: *const $system,
+            parameters: *const CFilled,
             $($t: CScalar,)?
             q: *const CVector,
             v: *const CVector,

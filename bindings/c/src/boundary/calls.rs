@@ -9,7 +9,7 @@ use dalembert::run::DrivenTrajectory;
 use dalembert::step::{Flow, Report, require_step_size};
 use dalembert_face::{Interface, Multipliers, StepMade, start};
 
-use super::machine::{self, Entered, Given, Lambda, Machine, Number, Rule, System, View};
+use super::machine::{self, Entered, Filled, Given, Lambda, Machine, Number, Rule, System, View};
 use super::{Held, advance, both, change, look, optional, place, read, seen, write};
 use crate::{CReport, Status};
 
@@ -31,7 +31,7 @@ pub fn viewed<C: Entered<N>, const N: usize>(system: &System<C, N>, (u, t): Give
 pub unsafe fn init<C: Entered<N>, const N: usize>(
     memory: *mut Memory<C, N>,
     (size, layout): (usize, u64),
-    parameters: *const System<C, N>,
+    parameters: *const Filled<C, N>,
     h: Number<C, N>,
     given: impl FnOnce() -> Result<Given<C, N>, Status>,
     [q, v]: [*const Vector<C, N>; 2],
@@ -43,7 +43,7 @@ pub unsafe fn init<C: Entered<N>, const N: usize>(
             return Err(Status::WrongMemory);
         }
         // SAFETY: the caller's promise.
-        let (system, q, v) = unsafe { (machine::parameters(read(parameters)?)?, read(q)?, read(v)?) };
+        let (system, q, v) = unsafe { (machine::parameters(&read(parameters)?)?, read(q)?, read(v)?) };
         let run = start::<C::Of, N>(&system, given()?, h, [q, v])?;
         // SAFETY: the caller's promise.
         unsafe { place(memory, C::SIGNATURE, Machine::begun(system, run)) }
@@ -240,11 +240,11 @@ pub unsafe fn set_state<C: Entered<N>, const N: usize>(
 /// The caller's promise.
 pub unsafe fn set_parameters<C: Entered<N>, const N: usize>(
     memory: *mut Memory<C, N>,
-    parameters: *const System<C, N>,
+    parameters: *const Filled<C, N>,
 ) -> Status {
     let ask = |machine: &mut Machine<C, N>| {
         // SAFETY: the caller's promise.
-        let system = machine::parameters(unsafe { read(parameters)? })?;
+        let system = machine::parameters(&unsafe { read(parameters)? })?;
         *machine = Machine::begun(system, DrivenTrajectory::resume(machine.run.present()));
         Ok(())
     };

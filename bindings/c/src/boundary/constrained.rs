@@ -6,7 +6,7 @@ use dalembert::Lagrangian;
 use dalembert_face::{Interface, Multipliers};
 
 use super::calls::{Memory, Vector, viewed};
-use super::machine::{self, Entered, Given, Machine, Number, System};
+use super::machine::{self, Entered, Filled, Given, Machine, Number};
 use super::{both, look, read, seen, write};
 use crate::{CViolation, Status};
 
@@ -15,7 +15,7 @@ use crate::{CViolation, Status};
 /// # Safety
 /// The caller's promise.
 pub unsafe fn violation<C: Entered<N>, const N: usize>(
-    parameters: *const System<C, N>,
+    parameters: *const Filled<C, N>,
     given: impl FnOnce() -> Result<Given<C, N>, Status>,
     [q, v]: [*const Vector<C, N>; 2],
     violation: *mut CViolation,
@@ -23,7 +23,7 @@ pub unsafe fn violation<C: Entered<N>, const N: usize>(
     let find = || {
         seen(violation)?;
         // SAFETY: the caller's promise.
-        let (system, q, v) = unsafe { (machine::parameters(read(parameters)?)?, read(q)?, read(v)?) };
+        let (system, q, v) = unsafe { (machine::parameters(&read(parameters)?)?, read(q)?, read(v)?) };
         let at = machine::state(q, v)?;
         let found = viewed::<C, N>(&system, given()?).violation(&at.q, &at.p);
         // SAFETY: the caller's promise.
@@ -37,7 +37,7 @@ pub unsafe fn violation<C: Entered<N>, const N: usize>(
 /// # Safety
 /// The caller's promise.
 pub unsafe fn nearest<C: Entered<N>, const N: usize>(
-    parameters: *const System<C, N>,
+    parameters: *const Filled<C, N>,
     given: impl FnOnce() -> Result<Given<C, N>, Status>,
     [q, v]: [*const Vector<C, N>; 2],
     [nearest_q, nearest_v]: [*mut Vector<C, N>; 2],
@@ -46,7 +46,7 @@ pub unsafe fn nearest<C: Entered<N>, const N: usize>(
         seen(nearest_q)?;
         seen(nearest_v)?;
         // SAFETY: the caller's promise.
-        let (system, q, v) = unsafe { (machine::parameters(read(parameters)?)?, read(q)?, read(v)?) };
+        let (system, q, v) = unsafe { (machine::parameters(&read(parameters)?)?, read(q)?, read(v)?) };
         let view = viewed::<C, N>(&system, given()?);
         let state = C::Of::nearest(&view, [q, v])?;
         let velocity = state.velocity(&view)?;

@@ -4,7 +4,7 @@ use dalembert::run::DrivenTrajectory;
 use dalembert::step::{Flow, Quantity, StepTaken};
 use dalembert::system::Scalar;
 use dalembert::{State, StepError};
-use dalembert_face::{Column, Interface, Multipliers, StepMade, by_state};
+use dalembert_face::{Column, Fields, Interface, Multipliers, StepMade, by_state};
 
 use super::{CParameters, Plain, refused};
 use crate::Status;
@@ -32,6 +32,8 @@ pub trait Entered<const N: usize>: 'static {
     fn linearized(taken: &Taken<'_, '_, Self, N>) -> Result<Self::Linearized, StepError>;
 }
 
+/// The struct that C fills in.
+pub type Filled<C, const N: usize> = <System<C, N> as Fields>::Given;
 /// The struct of the system.
 pub type System<C, const N: usize> = <<C as Entered<N>>::Of as Interface<N>>::System;
 /// `f64` or `f32`.
@@ -75,12 +77,15 @@ impl<C: Entered<N>, const N: usize> Clone for Machine<C, N> {
     }
 }
 
-/// The parameters, none of which is NaN.
+/// The system of these parameters, none of which is NaN, and tables of which have the right points.
 ///
 /// # Errors
-/// [`Status::ParameterNan`].
-pub fn parameters<P: CParameters>(given: P) -> Result<P, Status> {
-    if given.has_nan() { Err(Status::ParameterNan) } else { Ok(given) }
+/// [`Status::ParameterNan`], or the status of a [`WrongPoints`].
+pub fn parameters<P: CParameters>(given: &P::Given) -> Result<P, Status> {
+    if given.has_nan() {
+        return Err(Status::ParameterNan);
+    }
+    P::of(given).map_err(Status::from)
 }
 
 /// The input, all of it finite.

@@ -3,6 +3,7 @@
 use core::fmt::{self, Display};
 
 use super::constrained::OnConstraints;
+use super::tables::OnTables;
 use super::{Given, Header, Time};
 
 impl Header {
@@ -50,7 +51,7 @@ public:
         return {prefix}_set_parameters(&memory_, &parameters);
     }}
     [[nodiscard]] dalembert_status set_step_size({scalar} h) noexcept {{ return {prefix}_set_step_size(&memory_, h); }}
-{on_constraints}
+{on_constraints}{on_tables}
 private:
     {prefix}_memory memory_{{}};
 }};
@@ -58,6 +59,7 @@ private:
 ",
             given_first = GivenFirst(given),
             on_constraints = OnConstraints(self),
+            on_tables = OnTables(self),
             time = Time(self),
             time_first = TimeFirst(self),
             t = if self.takes_time { ", t" } else { "" },

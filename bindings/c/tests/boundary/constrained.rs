@@ -4,6 +4,7 @@
 use core::mem::MaybeUninit;
 use core::ptr::{null, null_mut};
 
+use dalembert_c::face::Fields;
 use dalembert_c::{CViolation, Status};
 
 use crate::bytes;
@@ -16,14 +17,14 @@ type Memory = MaybeUninit<rods::CMemory>;
 
 fn init(memory: &mut Memory, [q, v]: &[[f64; 4]; 2]) -> Status {
     let (size, layout) = (size_of::<Memory>(), rods::HEADER.layout);
-    unsafe { rods::init_with(memory.as_mut_ptr(), size, layout, &PARAMETERS, 0.01, q, v) }
+    unsafe { rods::init_with(memory.as_mut_ptr(), size, layout, &PARAMETERS.given(), 0.01, q, v) }
 }
 
 #[test]
 fn wrong_calls_are_refused_and_write_nothing() {
     use Status::{Misaligned, NotFinite, NullPointer, ParameterNan};
     let [q, v] = &START;
-    let nan = Rods { m: [f64::NAN, 1.0] };
+    let (good, nan) = (PARAMETERS.given(), Rods { m: [f64::NAN, 1.0] }.given());
     let (mut room, mut found) = ([[7.0; 4]; 3], CViolation { amount: 7.0, status: 7, constraint: 7 });
     let [near_q, near_v, _] = &mut room;
     let odd = core::ptr::from_mut(near_v).wrapping_byte_add(4);
@@ -31,19 +32,19 @@ fn wrong_calls_are_refused_and_write_nothing() {
     let nearest = |parameters, q, v, to_q, to_v| unsafe { rods::nearest(parameters, q, v, to_q, to_v) };
     for (status, expected) in [
         (violation(null(), q, v, &mut found), NullPointer),
-        (violation(&PARAMETERS, null(), v, &mut found), NullPointer),
-        (violation(&PARAMETERS, q, odd.cast_const(), &mut found), Misaligned),
+        (violation(&good, null(), v, &mut found), NullPointer),
+        (violation(&good, q, odd.cast_const(), &mut found), Misaligned),
         (violation(&nan, q, v, &mut found), ParameterNan),
-        (violation(&PARAMETERS, &[f64::NAN; 4], v, &mut found), NotFinite),
-        (violation(&PARAMETERS, q, v, null_mut()), NullPointer),
+        (violation(&good, &[f64::NAN; 4], v, &mut found), NotFinite),
+        (violation(&good, q, v, null_mut()), NullPointer),
         (nearest(null(), q, v, near_q, near_v), NullPointer),
-        (nearest(&PARAMETERS, q, null(), near_q, near_v), NullPointer),
+        (nearest(&good, q, null(), near_q, near_v), NullPointer),
         (nearest(&nan, q, v, near_q, near_v), ParameterNan),
-        (nearest(&PARAMETERS, q, &[f64::INFINITY; 4], near_q, near_v), NotFinite),
-        (nearest(&PARAMETERS, q, v, null_mut(), near_v), NullPointer),
-        (nearest(&PARAMETERS, q, v, near_q, odd), Misaligned),
+        (nearest(&good, q, &[f64::INFINITY; 4], near_q, near_v), NotFinite),
+        (nearest(&good, q, v, null_mut(), near_v), NullPointer),
+        (nearest(&good, q, v, near_q, odd), Misaligned),
         // Both bobs at one place: no direction leads to a rod.
-        (nearest(&PARAMETERS, &[0.0; 4], v, near_q, near_v), Status::NoDerivativeOfConstraint),
+        (nearest(&good, &[0.0; 4], v, near_q, near_v), Status::NoDerivativeOfConstraint),
     ] {
         assert_eq!(status, expected);
     }
@@ -51,8 +52,8 @@ fn wrong_calls_are_refused_and_write_nothing() {
     assert_eq!(found, CViolation { amount: 7.0, status: 7, constraint: 7 });
     // The control: right calls write there.
     let [near_q, near_v, _] = &mut room;
-    assert_eq!(nearest(&PARAMETERS, q, v, near_q, near_v), Status::Ok);
-    assert_eq!(violation(&PARAMETERS, q, &[0.0, 0.0, 0.0, 1.0], &mut found), Status::Ok);
+    assert_eq!(nearest(&good, q, v, near_q, near_v), Status::Ok);
+    assert_eq!(violation(&good, q, &[0.0, 0.0, 0.0, 1.0], &mut found), Status::Ok);
     assert!((room[0][1] - q[1]).abs() < 1e-15 && found.status == Status::LeavesConstraint as i32);
     assert_eq!((found.constraint, found.amount), (1, -1.0));
 }

@@ -6,6 +6,7 @@ use core::ptr::null_mut;
 
 use dalembert::{Gauss, Midpoint, OneSided, Trapezoidal, rayleigh_system};
 use dalembert_c::Status;
+use dalembert_c::face::Fields;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
@@ -63,7 +64,7 @@ macro_rules! failures_by {
             let mut memory = MaybeUninit::<$prefix::CMemory>::zeroed();
             let (size, layout, at) = (size_of_val(&memory), $prefix::HEADER.layout, memory.as_mut_ptr());
             let (start, rest) = ([0.1; $n], [0.0; $n]);
-            let started = unsafe { $prefix::init_with(at, size, layout, &$system { c: 0.1 }, 0.1, &start, &rest) };
+            let started = unsafe { $prefix::init_with(at, size, layout, &$system { c: 0.1 }.given(), 0.1, &start, &rest) };
             assert_eq!(started, Status::Ok);
             let mut counts = [0; 2];
             for i in 0..30 {

@@ -5,6 +5,7 @@ use core::ptr::null_mut;
 
 use dalembert::{Gauss, rayleigh_system};
 use dalembert_c::Status;
+use dalembert_c::face::Fields;
 
 dalembert_c::parameters! {
     /// A mass on a spring that ends in a dashpot.
@@ -39,7 +40,15 @@ fn a_spring_and_a_dashpot_in_series() {
     let mut memory = MaybeUninit::<maxwell::CMemory>::zeroed();
     let mut init = |c| unsafe {
         let parameters = Maxwell { m: [1.0, 0.0], k: 4.0, c };
-        maxwell::init_with(memory.as_mut_ptr(), size, layout, &parameters, 0.1, &[1.0, 0.0], &[0.0, 0.0])
+        maxwell::init_with(
+            memory.as_mut_ptr(),
+            size,
+            layout,
+            &parameters.given(),
+            0.1,
+            &[1.0, 0.0],
+            &[0.0, 0.0],
+        )
     };
     assert_eq!(init(0.0), Status::DegenerateLagrangian);
     assert_eq!(init(3.0), Status::Ok);

@@ -201,7 +201,7 @@ fn call(caller: &mut Caller, memory: &mut Memory, oracle: &mut Option<Oracle>) -
                 [refused_s, refused_q, refused_v, parameters(&system), step_size(h)].into_iter().flatten(),
             );
             wrong.extend(finite(&[given_q, given_v].concat(), Status::NotFinite));
-            let status = unsafe { cart_pole::init_with(at, size, layout, s, h, q, v) };
+            let status = unsafe { cart_pole::init_with(at, size, layout, s.cast(), h, q, v) };
             if !wrong.is_empty() {
                 return (status, wrong);
             }
@@ -252,7 +252,7 @@ fn call(caller: &mut Caller, memory: &mut Memory, oracle: &mut Option<Oracle>) -
             let (s, refused) = caller.address(&mut systems, required);
             wrong.extend([refused, parameters(&system)].into_iter().flatten());
             let (status, foreseen, _) =
-                foreseen!(unsafe { cart_pole::set_parameters(at, s) }, Deed::Parameters(system));
+                foreseen!(unsafe { cart_pole::set_parameters(at, s.cast()) }, Deed::Parameters(system));
             (status, foreseen)
         }
         7 => {

@@ -4,6 +4,7 @@
 use core::mem::MaybeUninit;
 use core::ptr::{null, null_mut};
 
+use dalembert_c::face::Fields;
 use dalembert_c::{CReport, Status};
 
 use crate::systems::{CartPole, Ring, cart_pole, ring, winch};
@@ -34,35 +35,39 @@ fn init_refuses_what_is_wrong_and_leaves_the_memory_as_it_was() {
     let nan = CartPole { friction: [0.3, f64::NAN], ..PARAMETERS };
     let (mut pair, mut parameters) = (MaybeUninit::zeroed(), MaybeUninit::zeroed());
     let (vector, odd) =
-        (askew::<[f64; 2]>(&mut pair).cast_const(), askew::<CartPole>(&mut parameters).cast_const());
+        (askew::<[f64; 2]>(&mut pair).cast_const(), askew::<CartPole>(&mut parameters).cast_const().cast());
+    let (good, nan) = (PARAMETERS.given(), nan.given());
     for mut memory in [Memory::zeroed(), under_way()] {
         let before = bytes(&memory);
-        let mut call = |size, layout, parameters: *const CartPole, h, q: *const _, v: *const _| unsafe {
+        let mut call = |size, layout, parameters: *const _, h, q: *const _, v: *const _| unsafe {
             cart_pole::init_with(memory.as_mut_ptr(), size, layout, parameters, h, q, v)
         };
         for (status, expected) in [
-            (call(size - 1, layout, &PARAMETERS, h, &q, &v), WrongMemory),
-            (call(0, layout, &PARAMETERS, h, &q, &v), WrongMemory),
-            (call(size, layout ^ 1, &PARAMETERS, h, &q, &v), WrongMemory),
-            (call(size, ring::HEADER.layout, &PARAMETERS, h, &q, &v), WrongMemory),
+            (call(size - 1, layout, &good, h, &q, &v), WrongMemory),
+            (call(0, layout, &good, h, &q, &v), WrongMemory),
+            (call(size, layout ^ 1, &good, h, &q, &v), WrongMemory),
+            (call(size, ring::HEADER.layout, &good, h, &q, &v), WrongMemory),
             (call(size, layout, null(), h, &q, &v), NullPointer),
-            (call(size, layout, &PARAMETERS, h, null(), &v), NullPointer),
-            (call(size, layout, &PARAMETERS, h, &q, null()), NullPointer),
+            (call(size, layout, &good, h, null(), &v), NullPointer),
+            (call(size, layout, &good, h, &q, null()), NullPointer),
             (call(size, layout, odd, h, &q, &v), Misaligned),
-            (call(size, layout, &PARAMETERS, h, vector, &v), Misaligned),
-            (call(size, layout, &PARAMETERS, h, &q, vector), Misaligned),
+            (call(size, layout, &good, h, vector, &v), Misaligned),
+            (call(size, layout, &good, h, &q, vector), Misaligned),
             (call(size, layout, &nan, h, &q, &v), ParameterNan),
-            (call(size, layout, &CartPole { cart: -1.0, ..PARAMETERS }, h, &q, &v), MassNotPositiveDefinite),
-            (call(size, layout, &PARAMETERS, 0.0, &q, &v), StepSize),
-            (call(size, layout, &PARAMETERS, f64::NAN, &q, &v), StepSize),
-            (call(size, layout, &PARAMETERS, f64::INFINITY, &q, &v), StepSize),
-            (call(size, layout, &PARAMETERS, h, &[f64::NAN, 0.0], &v), NotFinite),
-            (call(size, layout, &PARAMETERS, h, &q, &[0.0, f64::INFINITY]), NotFinite),
+            (
+                call(size, layout, &CartPole { cart: -1.0, ..PARAMETERS }.given(), h, &q, &v),
+                MassNotPositiveDefinite,
+            ),
+            (call(size, layout, &good, 0.0, &q, &v), StepSize),
+            (call(size, layout, &good, f64::NAN, &q, &v), StepSize),
+            (call(size, layout, &good, f64::INFINITY, &q, &v), StepSize),
+            (call(size, layout, &good, h, &[f64::NAN, 0.0], &v), NotFinite),
+            (call(size, layout, &good, h, &q, &[0.0, f64::INFINITY]), NotFinite),
         ] {
             assert_eq!(status, expected);
         }
         assert_eq!(bytes(&memory), before);
-        let call = |memory| unsafe { cart_pole::init_with(memory, size, layout, &PARAMETERS, h, &q, &v) };
+        let call = |memory| unsafe { cart_pole::init_with(memory, size, layout, &good, h, &q, &v) };
         assert_eq!(call(null_mut()), NullPointer);
         assert_eq!(call(memory.as_mut_ptr().wrapping_byte_add(4)), Misaligned);
         assert_eq!(bytes(&memory), before);
@@ -78,7 +83,15 @@ fn no_call_takes_a_memory_that_holds_no_run_of_its_system() {
     let parameters = Ring { name: 1, k: 0.1, weights: [[1.0; 3], [0.0; 3]], turns: [0; 3] };
     let (size, layout) = (size_of::<ring::CMemory>(), ring::HEADER.layout);
     let started = unsafe {
-        ring::init_with(other.as_mut_ptr().cast(), size, layout, &parameters, 0.1, &[0.0, 1.2], &[0.5, 0.0])
+        ring::init_with(
+            other.as_mut_ptr().cast(),
+            size,
+            layout,
+            &parameters.given(),
+            0.1,
+            &[0.0, 1.2],
+            &[0.5, 0.0],
+        )
     };
     assert_eq!(started, Status::Ok);
     assert!(size_of_val(&other) >= size_of::<Memory>());
@@ -104,7 +117,7 @@ fn no_call_takes_a_memory_that_holds_no_run_of_its_system() {
                 cart_pole::time(memory, &mut one),
                 cart_pole::state_after(memory, &[0.0], 0.1, &mut q, &mut p),
                 cart_pole::set_state(memory, &[0.0; 2], &[0.0; 2]),
-                cart_pole::set_parameters(memory, &PARAMETERS),
+                cart_pole::set_parameters(memory, &PARAMETERS.given()),
                 cart_pole::set_step_size(memory, 0.1),
             ]
         };
@@ -129,7 +142,7 @@ fn no_call_takes_a_memory_that_holds_no_run_of_its_system() {
             cart_pole::time(memory, &mut one),
             cart_pole::state_after(memory, &[0.0], 0.0, &mut q, &mut p),
             cart_pole::set_state(memory, &q, &p),
-            cart_pole::set_parameters(memory, &PARAMETERS),
+            cart_pole::set_parameters(memory, &PARAMETERS.given()),
             cart_pole::set_step_size(memory, 0.1),
         ]
     };
@@ -191,8 +204,8 @@ fn arguments_that_are_wrong_are_refused_and_nothing_is_changed() {
             (cart_pole::set_state(memory, &bad, &good), NotFinite),
             (cart_pole::set_state(memory, &good, &bad), NotFinite),
             (cart_pole::set_parameters(memory, null()), NullPointer),
-            (cart_pole::set_parameters(memory, system), Misaligned),
-            (cart_pole::set_parameters(memory, &nan), ParameterNan),
+            (cart_pole::set_parameters(memory, system.cast()), Misaligned),
+            (cart_pole::set_parameters(memory, &nan.given()), ParameterNan),
             (cart_pole::set_step_size(memory, 0.0), StepSize),
             (cart_pole::set_step_size(memory, f64::NAN), StepSize),
         ]
@@ -211,7 +224,7 @@ fn a_time_that_is_not_finite_is_refused() {
     let (size, layout) = (size_of_val(&memory), winch::HEADER.layout);
     let parameters = crate::systems::Winch { c: 0.1, a: 0.2 };
     let mut start = |t| unsafe {
-        winch::init_with(memory.as_mut_ptr(), size, layout, &parameters, 0.1, t, &[0.3], &[0.0])
+        winch::init_with(memory.as_mut_ptr(), size, layout, &parameters.given(), 0.1, t, &[0.3], &[0.0])
     };
     assert_eq!(start(f64::NAN), Status::InputNotFinite);
     assert_eq!(start(2.0), Status::Ok);

@@ -21,7 +21,7 @@ const STANDARDS: [&str; 5] = ["c99", "c11", "c17", "c++17", "c++20"];
 #[test]
 fn every_header_alone_and_all_together_compile_without_a_warning() {
     let folder = folder("standards");
-    let names = ["cart_pole", "ring", "swing", "winch", "spherical", "rods", "skate"];
+    let names = ["cart_pole", "ring", "swing", "winch", "spherical", "rods", "skate", "rocket", "bead"];
     let all = names.map(|name| format!("#include \"{name}.h\"\n"));
     let sources: Vec<_> = all.iter().cloned().chain([all.concat() + &all.concat()]).collect();
     for compiler in there(&["gcc", "clang"]) {

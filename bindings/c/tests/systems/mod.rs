@@ -1,7 +1,8 @@
-//! Systems of every kind that C can be given: with and without input, time and constraints, in `f64` and
-//! `f32`, by three rules.
+//! Systems of every kind that C can be given: with and without input, time, constraints and tables, in `f64`
+//! and `f32`, by three rules.
 
 pub mod constrained;
+pub mod tables;
 
 #[path = "../../../../examples/c/src/lib.rs"]
 mod template;

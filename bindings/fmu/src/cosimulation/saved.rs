@@ -18,7 +18,7 @@ pub fn bytes<I: Interface<N>, const N: usize>(of: &CoSimulation<I, N>) -> Vec<u8
     scalar(of.step_size);
     of.input.iter().chain(of.start.as_flattened()).for_each(|&value| scalar(value));
     for (field, index, _) in parameters(of) {
-        words.push(of.system.entry(field, index).map_or(0, bits));
+        words.push(of.given.entry(field, index).map_or(0, bits));
     }
     if let Some(run) = &of.run {
         let Checkpoint { state, step_size, origin, steps } = run.present();
@@ -61,9 +61,11 @@ pub fn read<I: Interface<N>, const N: usize>(
         *value = scalar(next()?)?;
     }
     for (field, index, start) in parameters(like) {
-        read.system.change_entry(field, index, of_bits(start, next()?));
+        read.change_parameter(field, index, of_bits(start, next()?));
     }
-    if read.system.has_nan() || read.step_size.widen() <= 0.0 {
+    read.make_tables(like);
+    let is_wrong = read.wrong.is_some() && matches!(read.mode, Mode::Step | Mode::Terminated);
+    if is_wrong || read.given.has_nan() || read.step_size.widen() <= 0.0 {
         return Err(Refusal::Bytes);
     }
     if matches!(read.mode, Mode::Step | Mode::Terminated) {

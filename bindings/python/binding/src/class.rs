@@ -8,12 +8,13 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::arguments::{
-    count, count_from, entries, number, real, require_callable, require_finite, text, time, vector,
+    count, count_from, number, real, require_callable, require_finite, text, time, vector,
 };
 use crate::arrays::to_array;
 use crate::checks::Region;
 use crate::ensemble;
 use crate::error::{of_events, of_memory, of_refusal, of_step, warn};
+use crate::given_fields::entries;
 use crate::linearization::Linearization;
 use crate::model::{Kind, Model, MotionGiven, Run as Asked};
 use crate::motion::{self, Along};
@@ -25,6 +26,7 @@ use crate::starts::{
     Pair, StartArguments, States, affine, either, inputs, of_space, require_constraints, states,
 };
 use crate::stepping::{self, timed, whole};
+use crate::table;
 use crate::watch::{Watch, watched};
 use crate::watching::{self, Raised};
 
@@ -61,6 +63,9 @@ impl System {
         let model = self.model();
         let about = &model.kind().fields()[field];
         let numbers = (0..).map_while(|index| model.entry(field, index));
+        if about.is_table {
+            return table::value(py, about.name, &numbers.collect::<Vec<_>>());
+        }
         if about.dimensions.is_empty() {
             let mut numbers = numbers;
             let first = numbers.next().ok_or_else(|| PyAttributeError::new_err(about.name))?;
@@ -85,10 +90,7 @@ impl System {
         let like = model.entry(field, 0).ok_or_else(|| PyAttributeError::new_err(about.name))?;
         let entries = entries(about, like, value)?;
         let mut model = self.model.write().unwrap_or_else(PoisonError::into_inner);
-        for (index, entry) in entries.into_iter().enumerate() {
-            model.change_entry(field, index, entry);
-        }
-        Ok(())
+        model.change_field(field, &entries).map_err(|wrong| PyValueError::new_err(wrong.to_string()))
     }
 
     /// The values of all fields.
@@ -538,7 +540,8 @@ impl System {
         let model = self.model();
         let kind = model.kind();
         let shown = kind.fields().iter().zip(self.values(py)?).map(|(field, value)| {
-            let value = if field.dimensions.is_empty() { value } else { value.call_method0("tolist")? };
+            let is_array = !field.dimensions.is_empty() && !field.is_table;
+            let value = if is_array { value.call_method0("tolist")? } else { value };
             Ok(format!("{}={}", field.name, value.repr()?))
         });
         Ok(format!("{}({})", kind.name(), shown.collect::<PyResult<Vec<_>>>()?.join(", ")))

@@ -15,11 +15,12 @@ use pyo3::exceptions::{PyOSError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyModule};
 
-use crate::arguments::{self, array, entries_of_members, expected, input, of_shape, time};
+use crate::arguments::{self, array, expected, input, of_shape, time};
 use crate::arrays::to_array;
 use crate::crossings::Crossings;
 use crate::error::{of_member, of_memory, of_refusal};
 use crate::events::Event;
+use crate::given_fields::entries_of_members;
 use crate::many::{Asked, Control, FieldOfMembers, FoundOfMembers, Kept, NoResult, Rows, Written};
 use crate::model::{Kind, Model};
 use crate::offer::Stepping;
@@ -282,6 +283,14 @@ fn fields(
         let like = model.entry(field, 0).unwrap_or(Number::F64(0.0));
         let (numbers, length) = entries_of_members(&kind.fields()[field], like, &value)?;
         agree(members, &name, Some(length))?;
+        if kind.fields()[field].is_table {
+            // What has no error here has none where the members are made.
+            let mut tried = model.copy();
+            for numbers in numbers.chunks(numbers.len() / length.max(1)) {
+                let changed = tried.change_field(field, numbers);
+                changed.map_err(|wrong| PyValueError::new_err(wrong.to_string()))?;
+            }
+        }
         fields.push((field, numbers));
     }
     Ok(fields)

@@ -42,6 +42,7 @@ mod ensemble;
 mod error;
 #[doc(hidden)]
 pub mod events;
+mod given_fields;
 mod linearization;
 #[doc(hidden)]
 pub mod look;
@@ -69,6 +70,7 @@ mod structure;
 mod stub;
 #[doc(hidden)]
 pub mod system;
+mod table;
 #[doc(hidden)]
 pub mod together;
 #[doc(hidden)]

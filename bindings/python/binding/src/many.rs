@@ -166,9 +166,8 @@ fn fields_of_members<S: Offers<N>, const N: usize>(system: &S::Fields, asked: &A
     let mut all = vec![*system; asked.members];
     for (member, fields) in all.iter_mut().enumerate() {
         for (field, numbers) in asked.entries(member) {
-            for (index, number) in numbers.iter().enumerate() {
-                fields.change_entry(field, index, *number);
-            }
+            // They have been tried where they were given.
+            *fields = fields.with_field(field, numbers).unwrap_or(*fields);
         }
     }
     all

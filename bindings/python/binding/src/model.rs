@@ -7,7 +7,7 @@ use dalembert::nalgebra::SVector;
 use dalembert::run::Stop as Told;
 use dalembert::system::Structure;
 use dalembert::{Lagrangian, State, StepError};
-use dalembert_face::{Described, Field, Fields, Holding, Number};
+use dalembert_face::{Described, Field, Fields, Holding, Number, WrongPoints};
 
 use crate::checks::{Affine, Ledger, Region, Symmetry};
 use crate::events::{Event, Events};
@@ -55,8 +55,11 @@ pub trait Model: Send + Sync {
     fn copy(&self) -> Box<dyn Model>;
     /// Number `index` of field `field`, arrays row by row.
     fn entry(&self, field: usize, index: usize) -> Option<Number>;
-    /// Changes it; whether there is one of this type.
-    fn change_entry(&mut self, field: usize, index: usize, value: Number) -> bool;
+    /// Gives field `field` other numbers.
+    ///
+    /// # Errors
+    /// [`WrongPoints`]: the field is then as before.
+    fn change_field(&mut self, field: usize, numbers: &[Number]) -> Result<(), WrongPoints>;
 
     /// The records of a run.
     ///
@@ -299,8 +302,9 @@ impl<S: Offers<N>, const N: usize> Model for ModelOf<S, N> {
         self.fields.entry(field, index)
     }
 
-    fn change_entry(&mut self, field: usize, index: usize, value: Number) -> bool {
-        self.fields.change_entry(field, index, value)
+    fn change_field(&mut self, field: usize, numbers: &[Number]) -> Result<(), WrongPoints> {
+        self.fields = self.fields.with_field(field, numbers)?;
+        Ok(())
     }
 
     fn run(&self, run: &Run<'_>, watch: &Watch<'_>) -> Result<Ran, Refusal> {

@@ -8,7 +8,7 @@ use crate::class::{KIND, KindObject, System};
 use crate::model::Kind;
 use crate::structure;
 use crate::stub::{lines, stub_of};
-use crate::{ensemble, error, reports, results, watching};
+use crate::{ensemble, error, reports, results, table, watching};
 
 /// The documentation of a module that has none of its own.
 const DOCUMENTATION: &str = "Mechanical systems with friction, by dalembert: SYSTEMS.
@@ -38,6 +38,7 @@ pub fn fill(
     ensemble::add_to(module)?;
     reports::add_to(module)?;
     watching::add_to(module)?;
+    table::add_to(module)?;
     module.add_class::<System>()?;
     module.getattr("System")?.setattr("__module__", module.name()?)?;
     for kind in kinds {
@@ -85,6 +86,7 @@ fn documentation(kind: &dyn Kind) -> String {
 pub fn annotation(field: &Field) -> String {
     let number = if matches!(field.base, "double" | "float") { "float" } else { "int" };
     match field.dimensions {
+        [.., points] if field.is_table => format!("Table of {points} points"),
         [] => number.to_owned(),
         lengths => {
             let lengths: Vec<String> = lengths.iter().map(usize::to_string).collect();

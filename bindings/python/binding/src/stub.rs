@@ -38,6 +38,9 @@ pub fn lines(documentation: &[&str], between: &str) -> String {
 
 /// The type of a field's value.
 fn held(field: &Field) -> String {
+    if field.is_table {
+        return "Table".to_owned();
+    }
     let number = if is_real(field) { "float" } else { "int" };
     match (field.dimensions, number) {
         ([], number) => number.to_owned(),
@@ -48,6 +51,9 @@ fn held(field: &Field) -> String {
 
 /// The type of what may be given for it.
 fn given(field: &Field) -> String {
+    if field.is_table {
+        return held(field);
+    }
     match (field.dimensions, is_real(field)) {
         ([], true) => "float".to_owned(),
         ([], false) => "int".to_owned(),

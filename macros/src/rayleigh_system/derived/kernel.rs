@@ -95,13 +95,11 @@ impl Deriving<'_> {
         Ok(Routine { kind, ..function })
     }
 
-    /// The functions on members; nothing where a field is read within a condition, or is a characteristic,
-    /// since fields are read before, as numbers.
+    /// The functions on members; nothing where a field is read within a condition, since numbers are read
+    /// before.
     pub(super) fn on_members(&self, functions: [&Routine; 2]) -> Option<[Routine; 2]> {
         let outputs = || functions.iter().flat_map(|function| &function.outputs).copied();
-        let is_read_before =
-            !self.graph.is_conditional(outputs()) && !self.graph.reads_characteristic(outputs());
-        is_read_before.then(|| {
+        (!self.graph.is_conditional(outputs())).then(|| {
             functions.map(|&Routine { of, home, ref outputs, .. }| {
                 let kind = Kind::Members { handed: Vec::new(), reciprocals: None };
                 Routine { of, home, kind, outputs: outputs.clone() }

@@ -27,9 +27,6 @@ const NOT_FACTORED: &str =
 
 pub const CONDITIONAL: &str = "reads all fields before the run, and a body reads one within a condition, where it may panic; read it before the condition";
 
-/// Fields of members are gathered as numbers.
-pub const CHARACTERISTIC: &str = "reads all fields before the run, as numbers, and a body takes a characteristic of a field at what changes; make it a constant, `const DRAG: Table<8> = …`, the same for all members";
-
 /// Longer factorisations are left to the runtime.
 const MAX_PRODUCTS: usize = 4000;
 
@@ -65,9 +62,7 @@ impl Deriving<'_> {
         }
         let reciprocals = self.of_corrections_alone(&outputs);
         let home = self.system.home();
-        let is_in_lanes =
-            self.system.lanes.gauss.is_some() && !self.graph.reads_characteristic(outputs.iter().copied());
-        let in_lanes = is_in_lanes.then(|| {
+        let in_lanes = self.system.lanes.gauss.is_some().then(|| {
             let (rates, rest) = outputs.split_at(self.n);
             let handed = self.handed(rest, &late);
             let kind = Kind::Members { handed: Vec::new(), reciprocals: Some(reciprocals.clone()) };

@@ -49,17 +49,30 @@ impl Writer<'_> {
         if self.is_dual {
             let x = self.expression(x).tokens;
             quote!(dual::at(&#of, #x))
+        } else if self.is_of_each_member(curve) {
+            let (x, derivatives) = (self.lane_receiver(x), self.derivatives(of, quote!(x)));
+            quote!(#x.on_each(&systems, |system, x| #derivatives))
         } else if self.is_lanes[x.index()] {
             let x = self.lane_receiver(x);
             quote!(#x.on(&#of))
         } else {
-            let (mut name, scalar, x) = (self.runtime("Curve"), self.scalar, self.expression(x).tokens);
-            // Where the field is no characteristic, rustc says so there.
-            let span = of.clone().into_iter().last().map_or_else(Span::call_site, |token| token.span());
-            let span = Span::call_site().located_at(span);
-            name.set_span(span);
-            let of = quote_spanned!(span=> &#of);
-            quote_spanned!(span=> #name::<#scalar>::derivatives(#of, #x))
+            self.derivatives(of, self.expression(x).tokens)
         }
+    }
+
+    /// Whether each member has a curve of its own.
+    pub fn is_of_each_member(&self, curve: Curve) -> bool {
+        self.lanes == "Members" && self.graph.parameter(curve.parameter).reads_self()
+    }
+
+    /// `Curve::<f64>::derivatives(&self.drag, x)`
+    fn derivatives(&self, of: TokenStream, x: TokenStream) -> TokenStream {
+        let (mut name, scalar) = (self.runtime("Curve"), self.scalar);
+        // Where the field is no characteristic, rustc says so there.
+        let span = of.clone().into_iter().last().map_or_else(Span::call_site, |token| token.span());
+        let span = Span::call_site().located_at(span);
+        name.set_span(span);
+        let of = quote_spanned!(span=> &#of);
+        quote_spanned!(span=> #name::<#scalar>::derivatives(#of, #x))
     }
 }

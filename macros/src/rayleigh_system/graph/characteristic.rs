@@ -31,19 +31,4 @@ impl Graph {
         let suffix = ["", "_slope", "_curvature", "_third"][usize::from(curve.order)];
         last.last().map(|word| format!("{word}{suffix}"))
     }
-
-    /// Whether any of the expressions is a characteristic of the system's at a place that changes in a run.
-    pub fn reads_characteristic(&self, roots: impl IntoIterator<Item = Node>) -> bool {
-        let is_held = |node: Node| match self.operation(node) {
-            Operation::Coordinate(_) | Operation::Velocity(_) => false,
-            Operation::Parameter(index) => self.parameters[index].reads_self(),
-            _ => true,
-        };
-        self.reachable(roots).into_iter().any(|node| match self.operation(node) {
-            Operation::Characteristic(curve, x) => {
-                self.parameters[curve.parameter].reads_self() && !self.reachable([x]).into_iter().all(is_held)
-            }
-            _ => false,
-        })
-    }
 }

@@ -27,6 +27,7 @@ use super::super::structure::{Engine, Structure};
 use super::item::{are_plain, as_written};
 use super::{EngineFunctions, Friction, Kernel, LaneFunctions, Memory, notice, view};
 use frame::{parameter, tuple, unused};
+use in_lanes::seen_from_member;
 use matrices::Shape;
 
 /// The whole expansion: the user's item as it stands, and the system with its derivatives.
@@ -147,7 +148,13 @@ impl Text<'_> {
         let mut line = self.writing(&taken).written(&function.outputs, &function.kind);
         line.fields.sort_by_key(|field| (field.is_truth, field.node));
         let time = time.filter(|_| line.uses("t"));
-        self.seen(function.home, line, time)
+        let mut line = self.seen(function.home, line, time);
+        if line.reads_systems {
+            // What is left of `self` there is the curves of each member.
+            line.statements = seen_from_member(line.statements);
+            line.outputs = line.outputs.into_iter().map(seen_from_member).collect();
+        }
+        line
     }
 
     /// [`line`](Self::line) at the view's own time.

@@ -265,8 +265,10 @@ const _: () = {
     }
     #[automatically_derived]
     impl ::dalembert::generated::Gathered<1> for Bead {
-        type Fields<const W: usize> = ([Members<f64, W>; 5], [Mask<W>; 1]);
-        fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W> {
+        type Fields<'s, const W: usize> = ([Members<f64, W>; 5], [Mask<W>; 1])
+        where
+            Self: 's;
+        fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<'_, W> {
             (
                 Members::of_each(
                     systems
@@ -283,11 +285,14 @@ const _: () = {
     #[automatically_derived]
     impl ::dalembert::generated::ExplicitInLanes<1> for Bead {
         #[inline(always)]
-        fn velocity_momenta_in_lanes<const W: usize>(
-            fields: &Self::Fields<W>,
+        fn velocity_momenta_in_lanes<'s, const W: usize>(
+            fields: &Self::Fields<'s, W>,
             v: &MemberVector<f64, 1, W>,
             h: f64,
-        ) -> [MemberVector<f64, 1, W>; 2] {
+        ) -> [MemberVector<f64, 1, W>; 2]
+        where
+            Self: 's,
+        {
             let ([_, m, _, r, _], [_]) = *fields;
             let half = 0.5 * h;
             let t1 = m * v[0];
@@ -295,10 +300,13 @@ const _: () = {
             [[t1 + t2], [t1 - t2]]
         }
         #[inline(always)]
-        fn configuration_force_in_lanes<const W: usize>(
-            fields: &Self::Fields<W>,
+        fn configuration_force_in_lanes<'s, const W: usize>(
+            fields: &Self::Fields<'s, W>,
             q: &MemberVector<f64, 1, W>,
-        ) -> MemberVector<f64, 1, W> {
+        ) -> MemberVector<f64, 1, W>
+        where
+            Self: 's,
+        {
             let ([k, _, t2, _, t3], [t1]) = *fields;
             let wall = Self::WALL;
             let t4 = t1 & Members::<f64, W>::splat(wall).less(q[0]);

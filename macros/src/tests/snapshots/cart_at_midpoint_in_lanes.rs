@@ -1,6 +1,6 @@
 impl ::dalembert::generated::Gathered<2> for Cart {
-        type Fields<const W: usize> = [Members<f64, W>; 9];
-        fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W> {
+        type Fields<'s, const W: usize> = [Members<f64, W>; 9] where Self: 's;
+        fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<'_, W> {
             Members::of_each(
                 systems
                     .map(|system| {
@@ -16,12 +16,15 @@ impl ::dalembert::generated::Gathered<2> for Cart {
     impl ::dalembert::generated::DiscreteInLanes<::dalembert::generated::Midpoint, 2>
     for Cart {
         #[inline(always)]
-        fn step_kernel_in_lanes<const W: usize>(
-            fields: &Self::Fields<W>,
+        fn step_kernel_in_lanes<'s, const W: usize>(
+            fields: &Self::Fields<'s, W>,
             q0: &MemberVector<f64, 2, W>,
             v: &MemberVector<f64, 2, W>,
             h: f64,
-        ) -> (MemberVector<f64, 2, W>, [MemberVector<f64, 2, W>; 2]) {
+        ) -> (MemberVector<f64, 2, W>, [MemberVector<f64, 2, W>; 2])
+        where
+            Self: 's,
+        {
             let [l, m, l_squared, end, k, c, a, t1, ln_a] = *fields;
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
@@ -51,12 +54,15 @@ impl ::dalembert::generated::Gathered<2> for Cart {
             )
         }
         #[inline(always)]
-        fn momenta_in_lanes<const W: usize>(
-            fields: &Self::Fields<W>,
+        fn momenta_in_lanes<'s, const W: usize>(
+            fields: &Self::Fields<'s, W>,
             q0: &MemberVector<f64, 2, W>,
             v: &MemberVector<f64, 2, W>,
             h: f64,
-        ) -> [MemberVector<f64, 2, W>; 2] {
+        ) -> [MemberVector<f64, 2, W>; 2]
+        where
+            Self: 's,
+        {
             let [l, m, l_squared, end, k, c, a, _, _] = *fields;
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0], q0[1] + half * v[1]];

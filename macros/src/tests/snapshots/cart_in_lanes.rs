@@ -1,6 +1,6 @@
 impl ::dalembert::generated::Gathered<2> for Cart {
-        type Fields<const W: usize> = [Members<f64, W>; 8];
-        fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W> {
+        type Fields<'s, const W: usize> = [Members<f64, W>; 8] where Self: 's;
+        fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<'_, W> {
             Members::of_each(
                 systems
                     .map(|system| {
@@ -19,12 +19,15 @@ impl ::dalembert::generated::Gathered<2> for Cart {
             [::dalembert::generated::Reciprocal<Members<f64, W>>; 1],
         );
         #[inline(always)]
-        fn rates_in_lanes<const W: usize>(
-            fields: &Self::Fields<W>,
+        fn rates_in_lanes<'s, const W: usize>(
+            fields: &Self::Fields<'s, W>,
             anchors: &mut Self::AnchorsInLanes<W>,
             q: &MemberVector<f64, 2, W>,
             v: &MemberVector<f64, 2, W>,
-        ) -> (MemberVector<f64, 2, W>, Self::Kept<W>) {
+        ) -> (MemberVector<f64, 2, W>, Self::Kept<W>)
+        where
+            Self: 's,
+        {
             let [l, _, l_squared, end, k, c, a, t1] = *fields;
             let (angles, reciprocals) = anchors;
             let (sin_q1, cos_q1) = angles[0].sin_cos(q[1]);
@@ -43,12 +46,15 @@ impl ::dalembert::generated::Gathered<2> for Cart {
             )
         }
         #[inline(always)]
-        fn corrections_in_lanes<const W: usize>(
-            fields: &Self::Fields<W>,
+        fn corrections_in_lanes<'s, const W: usize>(
+            fields: &Self::Fields<'s, W>,
             kept: &Self::Kept<W>,
             v: &MemberVector<f64, 2, W>,
             p: &MemberVector<f64, 2, W>,
-        ) -> [MemberVector<f64, 2, W>; 2] {
+        ) -> [MemberVector<f64, 2, W>; 2]
+        where
+            Self: 's,
+        {
             let [_, m, l_squared, _, _, _, _, t3] = *fields;
             let [t1, t2, t4, t5] = *kept;
             let residual0 = p[0] - m * v[0] - t2;

@@ -1,6 +1,8 @@
 impl ::dalembert::generated::Gathered<1> for DrivenShaken<'_> {
-        type Fields<const W: usize> = ([Members<f64, W>; 3], Members<f64, W>);
-        fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W> {
+        type Fields<'s, const W: usize> = ([Members<f64, W>; 3], Members<f64, W>)
+        where
+            Self: 's;
+        fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<'_, W> {
             (
                 Members::of_each(
                     systems
@@ -13,10 +15,13 @@ impl ::dalembert::generated::Gathered<1> for DrivenShaken<'_> {
             )
         }
         #[inline(always)]
-        fn later_in_lanes<const W: usize>(
-            fields: &Self::Fields<W>,
+        fn later_in_lanes<'s, const W: usize>(
+            fields: &Self::Fields<'s, W>,
             elapsed: &Members<f64, W>,
-        ) -> Self::Fields<W> {
+        ) -> Self::Fields<'s, W>
+        where
+            Self: 's,
+        {
             let (known, t) = *fields;
             (known, t + *elapsed)
         }
@@ -24,37 +29,48 @@ impl ::dalembert::generated::Gathered<1> for DrivenShaken<'_> {
     #[automatically_derived]
     impl ::dalembert::generated::ExplicitInLanes<1> for DrivenShaken<'_> {
         #[inline(always)]
-        fn velocity_momenta_in_lanes<const W: usize>(
-            fields: &Self::Fields<W>,
+        fn velocity_momenta_in_lanes<'s, const W: usize>(
+            fields: &Self::Fields<'s, W>,
             v: &MemberVector<f64, 1, W>,
             _h: f64,
-        ) -> [MemberVector<f64, 1, W>; 2] {
+        ) -> [MemberVector<f64, 1, W>; 2]
+        where
+            Self: 's,
+        {
             let ([_, m, _], _) = *fields;
             let t1 = m * v[0];
             [[t1], [t1]]
         }
         #[inline(always)]
-        fn configuration_force_in_lanes<const W: usize>(
-            fields: &Self::Fields<W>,
+        fn configuration_force_in_lanes<'s, const W: usize>(
+            fields: &Self::Fields<'s, W>,
             q: &MemberVector<f64, 1, W>,
-        ) -> MemberVector<f64, 1, W> {
+        ) -> MemberVector<f64, 1, W>
+        where
+            Self: 's,
+        {
             let ([t1, _, a], t) = *fields;
             [t1 - (1.0 + t.sin() * a) * q[0].sin()]
         }
     }
 impl ::dalembert::generated::Gathered<1> for GrowingAtTime<'_> {
-        type Fields<const W: usize> = ([Members<f64, W>; 1], Members<f64, W>);
-        fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W> {
+        type Fields<'s, const W: usize> = ([Members<f64, W>; 1], Members<f64, W>)
+        where
+            Self: 's;
+        fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<'_, W> {
             (
                 Members::of_each(systems.map(|system| [system.system.m])),
                 Members(systems.map(|system| system.t)),
             )
         }
         #[inline(always)]
-        fn later_in_lanes<const W: usize>(
-            fields: &Self::Fields<W>,
+        fn later_in_lanes<'s, const W: usize>(
+            fields: &Self::Fields<'s, W>,
             elapsed: &Members<f64, W>,
-        ) -> Self::Fields<W> {
+        ) -> Self::Fields<'s, W>
+        where
+            Self: 's,
+        {
             let (known, t) = *fields;
             (known, t + *elapsed)
         }
@@ -67,12 +83,15 @@ impl ::dalembert::generated::Gathered<1> for GrowingAtTime<'_> {
             [::dalembert::generated::Reciprocal<Members<f64, W>>; 1],
         );
         #[inline(always)]
-        fn rates_in_lanes<const W: usize>(
-            fields: &Self::Fields<W>,
+        fn rates_in_lanes<'s, const W: usize>(
+            fields: &Self::Fields<'s, W>,
             anchors: &mut Self::AnchorsInLanes<W>,
             q: &MemberVector<f64, 1, W>,
             v: &MemberVector<f64, 1, W>,
-        ) -> (MemberVector<f64, 1, W>, Self::Kept<W>) {
+        ) -> (MemberVector<f64, 1, W>, Self::Kept<W>)
+        where
+            Self: 's,
+        {
             let ([m], t) = *fields;
             let (angles, reciprocals) = anchors;
             let t1 = t * t + m;
@@ -81,12 +100,15 @@ impl ::dalembert::generated::Gathered<1> for GrowingAtTime<'_> {
             ([-sin_q0], [t1 * v[0], t2])
         }
         #[inline(always)]
-        fn corrections_in_lanes<const W: usize>(
-            _fields: &Self::Fields<W>,
+        fn corrections_in_lanes<'s, const W: usize>(
+            _fields: &Self::Fields<'s, W>,
             kept: &Self::Kept<W>,
             _v: &MemberVector<f64, 1, W>,
             p: &MemberVector<f64, 1, W>,
-        ) -> [MemberVector<f64, 1, W>; 2] {
+        ) -> [MemberVector<f64, 1, W>; 2]
+        where
+            Self: 's,
+        {
             let [t1, t2] = *kept;
             let residual0 = p[0] - t1;
             [[residual0], [t2 * residual0]]

@@ -28,8 +28,9 @@ pub fn system(seed: u64) -> (TokenStream, TokenStream) {
     let is_timed = !is_joint && random.below(2) == 0;
     let (t, phase) = if is_timed { (", t: f64", " * (0.3 * t).cos()") } else { ("", "") };
     let [l, f, place] = [l, f, place].map(|text| if is_explicit { text.replace("v[", "q[") } else { text });
-    // A characteristic at the same place twice, or none.
-    let cam = format!("Self::CAM.at({place})");
+    // A characteristic at the same place twice, of each system or of all, or none.
+    let whose = ["Self::CAM", "self.cam"][random.below(2)];
+    let cam = format!("{whose}.at({place})");
     let [of_l, of_f] = if random.below(3) == 0 { ["0.0", "0.0"] } else { [&*cam; 2] };
     let is_plain = is_explicit || is_joint;
     let r = if is_plain { "0.1 * v[0] * v[1]".to_owned() } else { format!("self.k * v[0] * v[0] + {r}") };

@@ -132,8 +132,9 @@ impl Scope {
                     "LOG10_E" => Number(std::f64::consts::LOG10_E),
                     "INFINITY" => Number(f64::INFINITY),
                     "NAN" => Number(f64::NAN),
-                    // A characteristic; parameters by which lanes start, with nothing from a sweep before.
-                    "CAM" | "segment" | "anchors" | "angles" | "reciprocals" => Many(Vec::new()),
+                    // A characteristic, and systems that have one; parameters by which lanes start, with
+                    // nothing from a sweep before.
+                    "CAM" | "systems" | "segment" | "anchors" | "angles" | "reciprocals" => Many(Vec::new()),
                     name => panic!("{name} is not known"),
                 }
             }
@@ -186,6 +187,10 @@ impl Scope {
             }
             Expr::MethodCall(call) => {
                 let (name, own) = (call.method.to_string(), &call.receiver);
+                if name == "on_each" {
+                    // `q[0].on_each(&systems, |system, x| …)`
+                    return Value::vector(&stand_in(self.value(own).number()));
+                }
                 let arguments: Vec<Value> =
                     call.args.iter().map(|argument| self.argument(argument)).collect();
                 // `systems.map(|system| …)`, `angles[0].sin_cos(x)`, `reciprocals[0].of(x)`

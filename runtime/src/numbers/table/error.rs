@@ -17,6 +17,9 @@ pub enum Interpolation {
 }
 
 impl Interpolation {
+    /// All of them, in the order of [`Table`](crate::system::Table)'s constructors.
+    pub const ALL: [Self; 4] = [Self::Linear, Self::Spline, Self::Monotone, Self::Periodic];
+
     /// The fewest points.
     pub(super) const fn fewest(self) -> usize {
         if matches!(self, Self::Periodic) { 3 } else { 2 }

@@ -1,9 +1,10 @@
-//! Points themselves as a curve of straight lines: data that other languages hand over as an array.
+//! Points themselves as a curve of straight lines: an array of plain data.
 
 use crate::numbers::{Curve, Scalar};
 
-/// The straight lines through points (x, y), which hold their value beyond the ends: for fields that C, FMUs
-/// and Python fill in, where a [`Table`](crate::system::Table) has no place.
+/// The straight lines through points (x, y), which hold their value beyond the ends: for numbers that are
+/// plain data, and may change one by one. A [`Table`](crate::system::Table) is looked at once, when it is
+/// made.
 ///
 /// Every evaluation looks at all points: where their x do not increase f is NaN, and a step an error that
 /// names the function.

@@ -170,7 +170,7 @@ impl<T: Scalar, A, const N: usize, const W: usize> Substep<T, A, N, W> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<L>(
         &self,
-        fields: &L::Fields<W>,
+        fields: &L::Fields<'_, W>,
         q: &mut MemberVector<T, N, W>,
         p: &mut MemberVector<T, N, W>,
         force: &mut MemberVector<T, N, W>,

@@ -17,7 +17,7 @@ use crate::step::newton::AT_FLOOR;
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn by_kept_matrices<L, R, const N: usize, const W: usize>(
     matrices: &MatricesOf<L, R, N, W>,
-    fields: &L::Fields<W>,
+    fields: &L::Fields<'_, W>,
     [q, p]: [&MemberVector<L::Scalar, N, W>; 2],
     h: L::Scalar,
     guess: &MemberVector<L::Scalar, N, W>,
@@ -72,7 +72,7 @@ where
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn by_linear_matrices<L, R, const N: usize, const W: usize>(
     matrices: &MatricesOf<L, R, N, W>,
-    fields: &L::Fields<W>,
+    fields: &L::Fields<'_, W>,
     [q, p]: [&MemberVector<L::Scalar, N, W>; 2],
     h: L::Scalar,
     guess: &MemberVector<L::Scalar, N, W>,

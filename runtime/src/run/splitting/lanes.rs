@@ -177,7 +177,7 @@ where
 /// G(q) of each after the i-th drift of the step, from the time that `fields` has.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn force_after<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
-    fields: &L::Fields<W>,
+    fields: &L::Fields<'_, W>,
     i: usize,
     h: L::Scalar,
     q: &MemberVector<L::Scalar, N, W>,

@@ -47,7 +47,7 @@ pub(crate) type MatricesOf<L, R, const N: usize, const W: usize> =
 /// some with numbers near overflow.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn quick_in_lanes<L, R, const N: usize, const W: usize>(
-    fields: &L::Fields<W>,
+    fields: &L::Fields<'_, W>,
     [q, p]: [&MemberVector<L::Scalar, N, W>; 2],
     h: L::Scalar,
     guess: &MemberVector<L::Scalar, N, W>,

@@ -85,7 +85,7 @@ where
     L: FlowInLanes<M, N>,
 {
     pub(crate) systems: [&'a L; W],
-    pub(crate) fields: L::Fields<W>,
+    pub(crate) fields: L::Fields<'a, W>,
     pub(crate) h: L::Scalar,
     /// Members that have begun and not failed: their q and p equal those of their own runs.
     pub(crate) is_sound: Mask<W>,

@@ -15,7 +15,8 @@ pub struct Column {
 }
 
 /// A column for each entry of the fields that differ: named as the field, `c0` and `c1` of an array, `m0_1`
-/// of one with two dimensions; after `field_` where other columns of the file may have that name.
+/// of one with two dimensions, `drag_x0` and `drag_y0` of a table; after `field_` where other columns of the
+/// file may have that name.
 pub fn columns<F: Fields>(asked: &Asked<'_>, coordinates: usize) -> Vec<Column> {
     let mut taken: Vec<String> = ["member", "t", "energy", "event", "error"].map(str::to_owned).into();
     taken.extend(['q', 'p'].iter().flat_map(|symbol| (0..coordinates).map(move |i| format!("{symbol}{i}"))));
@@ -24,6 +25,9 @@ pub fn columns<F: Fields>(asked: &Asked<'_>, coordinates: usize) -> Vec<Column> 
         let about = &F::FIELDS[field];
         for index in 0..about.dimensions.iter().product() {
             let mut name = match *about.dimensions {
+                [_, points] if about.is_table => {
+                    format!("{}_{}{}", about.name, ["x", "y"][index / points], index % points)
+                }
                 [] => about.name.to_owned(),
                 [_, columns] => format!("{}{}_{}", about.name, index / columns, index % columns),
                 _ => format!("{}{index}", about.name),

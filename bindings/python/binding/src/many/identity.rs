@@ -16,16 +16,19 @@ const STATES: usize = 2048;
 /// The hash that tells a model from one that was edited, whatever its fields and members: of its forces with
 /// fields and inputs that are always these.
 pub fn model<S: System<N>, const N: usize>() -> String {
-    let mut fields = S::Fields::ZERO;
+    let mut given = S::Fields::ZERO.given();
     let mut number = 0.7;
-    for field in 0..S::Fields::FIELDS.len() {
-        for index in 0.. {
-            let Some(zero) = fields.entry(field, index) else { break };
+    for (field, about) in S::Fields::FIELDS.iter().enumerate() {
+        let entries: usize = about.dimensions.iter().product();
+        // Of a table the y alone: its x stay in order.
+        for index in if about.is_table { entries / 2 } else { 0 }..entries {
+            let Some(zero) = given.entry(field, index) else { break };
             // No two alike.
             number = (number + 0.618_033_988_749_894_9) % 1.0;
-            fields.change_entry(field, index, one_like(zero, 0.5 + number));
+            given.change_entry(field, index, one_like(zero, 0.5 + number));
         }
     }
+    let fields = S::Fields::of(&given).unwrap_or(S::Fields::ZERO);
     let inputs: Vec<f64> = (0..S::Fields::INPUTS).map(|k| 0.3 / (1.0 + k as f64)).collect();
     let mut hash = XxHash3_128::new();
     let asked = catch_unwind(AssertUnwindSafe(|| {

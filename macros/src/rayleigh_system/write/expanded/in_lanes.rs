@@ -2,7 +2,8 @@
 //! is its own to the last bit.
 //!
 //! Values made of fields alone are computed for each system by itself, before the run and by the functions of
-//! numbers, as they are where one system runs alone.
+//! numbers, as they are where one system runs alone. Fields that are curves stay where they are: the systems
+//! are at hand where a function takes a value of one.
 
 mod explicit;
 mod midpoint;
@@ -15,18 +16,20 @@ use super::super::super::syntax::with_words;
 use super::*;
 use stages::StageLines;
 
-/// Numbers and truth values of members, in one value that functions hand on:
-/// `([Members<f64, W>; 3], [Mask<W>; 1])`.
+/// Numbers and truth values of members, and the members, in one value that functions hand on:
+/// `([Members<f64, W>; 3], [Mask<W>; 1], [&'s Self; W])`, without what is not needed.
 struct OfMembers<'t> {
     text: &'t Text<'t>,
     /// W.
     members: Ident,
     numbers: Vec<Node>,
     truths: Vec<Node>,
+    /// Whether the systems are in it.
+    has_systems: bool,
 }
 
 impl<'t> OfMembers<'t> {
-    fn new<'f>(text: &'t Text<'t>, fields: impl IntoIterator<Item = &'f Field>) -> Self {
+    fn new<'f>(text: &'t Text<'t>, fields: impl IntoIterator<Item = &'f Field>, has_systems: bool) -> Self {
         let fields = fields.into_iter().map(|field| (field.node, field.is_truth));
         let mut all: Vec<(Node, bool)> = fields.collect();
         all.sort_unstable();
@@ -38,11 +41,12 @@ impl<'t> OfMembers<'t> {
             members: number_of_members(&text.derived.graph),
             numbers: of(false).collect(),
             truths: of(true).collect(),
+            has_systems,
         }
     }
 
     fn is_empty(&self) -> bool {
-        self.numbers.is_empty() && self.truths.is_empty()
+        self.numbers.is_empty() && self.truths.is_empty() && !self.has_systems
     }
 
     fn groups(&self) -> impl Iterator<Item = (&[Node], &'static str)> {
@@ -54,11 +58,12 @@ impl<'t> OfMembers<'t> {
     /// The type, with the number of members as parameter.
     fn ty(&self) -> TokenStream {
         let (scalar, members) = (&self.text.system.scalar, &self.members);
-        tuple(self.groups().map(|(nodes, name)| {
+        let of_nodes = self.groups().map(|(nodes, name)| {
             let (length, ty) = (Literal::usize_unsuffixed(nodes.len()), self.text.name(name));
             let scalar = (name == "Members").then(|| quote!(#scalar,));
             quote!([#ty<#scalar #members>; #length])
-        }))
+        });
+        tuple(of_nodes.chain(self.has_systems.then(|| quote!([&'s Self; #members]))))
     }
 
     /// The type of vectors of members.
@@ -68,12 +73,13 @@ impl<'t> OfMembers<'t> {
         quote!(#name<#scalar, #length, #members>)
     }
 
-    /// The value made of one for each node.
-    fn value(&self, of: impl Fn(Node) -> TokenStream) -> TokenStream {
-        tuple(self.groups().map(|(nodes, _)| {
+    /// The value made of one for each node, and of the systems.
+    fn value(&self, of: impl Fn(Node) -> TokenStream, systems: TokenStream) -> TokenStream {
+        let of_nodes = self.groups().map(|(nodes, _)| {
             let values = nodes.iter().map(|&node| of(node));
             quote!([#(#values),*])
-        }))
+        });
+        tuple(of_nodes.chain(self.has_systems.then_some(systems)))
     }
 
     /// `let [k, _] = *kept;`, the names being those of the line; nothing where it uses none.
@@ -97,8 +103,9 @@ impl<'t> OfMembers<'t> {
     fn pattern(&self, line: &StraightLine) -> Option<TokenStream> {
         let own = |node: Node| line.fields.iter().find(|field| field.node == node);
         let is_used = [&self.numbers, &self.truths].into_iter().flatten().any(|&node| own(node).is_some());
-        is_used
-            .then(|| self.value(|node| own(node).map_or_else(|| quote!(_), |own| own.name.to_token_stream())))
+        let systems = if line.reads_systems { quote!(systems) } else { quote!(_) };
+        let name = |node| own(node).map_or_else(|| quote!(_), |own| own.name.to_token_stream());
+        (is_used || line.reads_systems).then(|| self.value(name, systems))
     }
 }
 
@@ -116,9 +123,12 @@ impl Text<'_> {
             _ => None,
         };
         let stages = stages.map(|functions| StageLines::new(lines(functions), self.handed_over(functions)));
-        let of_kernels = explicit.iter().chain(midpoint.iter().map(|(lines, _)| lines)).flatten();
-        let of_kernels = of_kernels.flat_map(|line| &line.fields);
-        let fields = OfMembers::new(self, of_kernels.chain(stages.iter().flat_map(StageLines::fields)));
+        let kernel_lines = || explicit.iter().chain(midpoint.iter().map(|(lines, _)| lines)).flatten();
+        let of_kernels = kernel_lines().flat_map(|line| &line.fields);
+        let reads_systems = kernel_lines().any(|line| line.reads_systems)
+            || stages.as_ref().is_some_and(StageLines::reads_systems);
+        let of_stages = stages.iter().flat_map(StageLines::fields);
+        let fields = OfMembers::new(self, of_kernels.chain(of_stages), reads_systems);
         let is_any = explicit.is_some() || midpoint.is_some() || stages.is_some();
         is_any.then(|| LaneFunctions {
             gathered: self.gathered(&fields),
@@ -145,31 +155,35 @@ impl Text<'_> {
             let outputs = if statements.is_empty() { outputs } else { quote!({ #statements #outputs }) };
             quote!(#group::of_each(systems.map(|system| #outputs)))
         };
-        let values = tuple(fields.groups().map(of_each));
+        let systems = fields.has_systems.then(|| quote!(systems));
+        let values = tuple(fields.groups().map(of_each).chain(systems));
         let systems = parameter("systems", is_timed || !fields.is_empty());
         if is_timed {
             let of = self.name("Members");
             return quote! {
-                type Fields<const #members: usize> = (#ty, #of<#scalar, #members>);
+                type Fields<'s, const #members: usize> = (#ty, #of<#scalar, #members>) where Self: 's;
 
-                fn fields<const #members: usize>(#systems: [&Self; #members]) -> Self::Fields<#members> {
+                fn fields<const #members: usize>(#systems: [&Self; #members]) -> Self::Fields<'_, #members> {
                     (#values, #of(systems.map(|system| system.t)))
                 }
 
                 #[inline(always)]
-                fn later_in_lanes<const #members: usize>(
-                    fields: &Self::Fields<#members>,
+                fn later_in_lanes<'s, const #members: usize>(
+                    fields: &Self::Fields<'s, #members>,
                     elapsed: &#of<#scalar, #members>,
-                ) -> Self::Fields<#members> {
+                ) -> Self::Fields<'s, #members>
+                where
+                    Self: 's,
+                {
                     let (known, t) = *fields;
                     (known, t + *elapsed)
                 }
             };
         }
         quote! {
-            type Fields<const #members: usize> = #ty;
+            type Fields<'s, const #members: usize> = #ty where Self: 's;
 
-            fn fields<const #members: usize>(#systems: [&Self; #members]) -> Self::Fields<#members> {
+            fn fields<const #members: usize>(#systems: [&Self; #members]) -> Self::Fields<'_, #members> {
                 #values
             }
         }
@@ -177,7 +191,7 @@ impl Text<'_> {
 }
 
 /// The tokens with `system` for `self`.
-fn seen_from_member(tokens: TokenStream) -> TokenStream {
+pub(super) fn seen_from_member(tokens: TokenStream) -> TokenStream {
     with_words(tokens, &|word| {
         (word == "self").then(|| Ident::new("system", word.span()).into_token_stream())
     })

@@ -18,11 +18,14 @@ impl Text<'_> {
         let (p0, p1) = momenta.outputs.split_at(self.derived.n);
         let velocity_momenta = quote! {
             #[inline(always)]
-            fn velocity_momenta_in_lanes<const #members: usize>(
-                #of_fields: &Self::Fields<#members>,
+            fn velocity_momenta_in_lanes<'s, const #members: usize>(
+                #of_fields: &Self::Fields<'s, #members>,
                 #v: &#vector,
                 #h: #scalar,
-            ) -> [#vector; 2] {
+            ) -> [#vector; 2]
+            where
+                Self: 's,
+            {
                 #apart
                 #half
                 #statements
@@ -37,10 +40,13 @@ impl Text<'_> {
             #velocity_momenta
 
             #[inline(always)]
-            fn configuration_force_in_lanes<const #members: usize>(
-                #of_fields: &Self::Fields<#members>,
+            fn configuration_force_in_lanes<'s, const #members: usize>(
+                #of_fields: &Self::Fields<'s, #members>,
                 #q: &#vector,
-            ) -> #vector {
+            ) -> #vector
+            where
+                Self: 's,
+            {
                 #apart
                 #statements
                 [#(#outputs),*]

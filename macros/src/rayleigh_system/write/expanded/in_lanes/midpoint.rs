@@ -23,12 +23,15 @@ impl Text<'_> {
             let body = self.at_midpoint(line, &quote!(now), unused, result);
             quote! {
                 #[inline(always)]
-                fn #name<const #members: usize>(
-                    #of_fields: &Self::Fields<#members>,
+                fn #name<'s, const #members: usize>(
+                    #of_fields: &Self::Fields<'s, #members>,
                     q0: &#vector,
                     v: &#vector,
                     h: #scalar,
-                ) -> #ty {
+                ) -> #ty
+                where
+                    Self: 's,
+                {
                     #apart
                     #body
                 }

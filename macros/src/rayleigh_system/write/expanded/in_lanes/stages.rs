@@ -22,6 +22,11 @@ impl StageLines {
         self.rates.fields.iter().chain(of_corrections)
     }
 
+    /// Whether the code reads curves of the systems.
+    pub(super) fn reads_systems(&self) -> bool {
+        self.rates.reads_systems || self.corrections.reads_systems
+    }
+
     fn hands(&self, field: &Field) -> bool {
         self.handed.contains(&field.node)
     }
@@ -36,15 +41,16 @@ impl Text<'_> {
     /// The functions of `ForcedLagrangianInLanes`.
     pub(super) fn stages_in_lanes(&self, lines: &StageLines, fields: &OfMembers<'_>) -> TokenStream {
         let StageLines { rates: line, corrections, handed } = lines;
-        let kept = OfMembers::new(self, corrections.fields.iter().filter(|field| lines.hands(field)));
+        let kept = OfMembers::new(self, corrections.fields.iter().filter(|field| lines.hands(field)), false);
 
         let (scalar, members) = (&self.system.scalar, &fields.members);
         let vector = fields.vector(&self.system.degrees.times(1));
         let (of_rates, of_kept) = line.outputs.split_at(self.derived.n);
-        let handed_over = kept.value(|node| {
+        let of_node = |node| {
             let place = handed.iter().position(|&other| other == node);
             place.map_or_else(TokenStream::new, |place| of_kept[place].clone())
-        });
+        };
+        let handed_over = kept.value(of_node, TokenStream::new());
         let is_timed = self.system.is_timed();
         let apart = fields.read_by(line, is_timed, "t");
         let of_fields = parameter("fields", apart.is_some());
@@ -58,12 +64,15 @@ impl Text<'_> {
         let (anchors_ty, of_anchors, anchors_apart) = (&anchors.ty, &anchors.parameter, &anchors.apart);
         let rates = quote! {
             #[inline(always)]
-            fn rates_in_lanes<const #members: usize>(
-                #of_fields: &Self::Fields<#members>,
+            fn rates_in_lanes<'s, const #members: usize>(
+                #of_fields: &Self::Fields<'s, #members>,
                 #of_anchors: &mut Self::AnchorsInLanes<#members>,
                 #q: &#vector,
                 #v: &#vector,
-            ) -> (#vector, Self::Kept<#members>) {
+            ) -> (#vector, Self::Kept<#members>)
+            where
+                Self: 's,
+            {
                 #apart
                 #anchors_apart
                 #statements
@@ -86,12 +95,15 @@ impl Text<'_> {
             #rates
 
             #[inline(always)]
-            fn corrections_in_lanes<const #members: usize>(
-                #of_fields: &Self::Fields<#members>,
+            fn corrections_in_lanes<'s, const #members: usize>(
+                #of_fields: &Self::Fields<'s, #members>,
                 #of_kept: &Self::Kept<#members>,
                 #v: &#vector,
                 #p: &#vector,
-            ) -> [#vector; 2] {
+            ) -> [#vector; 2]
+            where
+                Self: 's,
+            {
                 #apart
                 #kept_apart
                 #statements
