@@ -84,12 +84,17 @@ where
     let gradients = system.constraint_gradients(q).1;
     let directions = gradients.transpose();
     let answers = by_columns(&directions, |direction| inertia.solve(direction));
-    let found = Independent::with_redundant(&gradients, &directions, &answers);
-    let Some((independent, redundant)) = found else { return false };
-    // Onto d with G d = 0.
+    let Some(independent) = Independent::of(&gradients, &directions, &answers) else { return false };
+    // Onto d with G d = 0, and onto κ with Gᵀκ = 0.
     let along = SMatrix::identity() - answers * by_columns(&gradients, |column| independent.solve(column));
+    let redundant =
+        SMatrix::identity() - by_columns(&(gradients * answers), |column| independent.solve(column));
     let least = S::EPSILON.sqrt();
-    redundant.data.0.iter().all(|kappa| {
+    redundant.data.0.iter().enumerate().all(|(k, kappa)| {
+        // Rounding is left where a constraint depends on no others.
+        if kappa.get(k).is_none_or(|own| own.abs() <= least) {
+            return true;
+        }
         let kappa = SVector::from(*kappa);
         let curvature = along.transpose() * system.constraint_curvature(q, &kappa) * along;
         let terms = along.abs().transpose() * curvature_terms(system, q, &kappa) * along.abs();
