@@ -33,9 +33,14 @@ where
 {
     /// The error of a step of size `h`, by the constraints where these are its cause: where they depend on
     /// one another and are not redundant. Without the standard library they are taken for its cause.
+    ///
+    /// From a guess the error stays as it is: the caller goes on without one.
     #[cold]
     #[inline(never)]
-    pub(super) fn explained(&self, error: StepError, h: L::Scalar) -> StepError {
+    pub(super) fn explained(&self, error: StepError, h: L::Scalar, has_guess: bool) -> StepError {
+        if has_guess {
+            return error;
+        }
         match self.dependence(error) {
             Some(dependence) if !cfg!(feature = "std") || !self.may_hold(h) => dependence,
             _ => error,
