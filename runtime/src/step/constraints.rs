@@ -68,18 +68,14 @@ where
         guess: Option<&SVector<L::Scalar, N>>,
     ) -> Result<Step<L::Scalar, N>, StepError> {
         let equation = OnConstraints::<L, R, N, M>::new(system, state)?;
-        let step = step_by(system, &equation, state, h, guess);
-        // After a guess the caller goes on without one.
-        let step = step.map_err(|error| match guess {
-            Some(_) => error,
-            None => equation.explained(error, h),
-        })?;
+        let step = step_by(system, &equation, state, h, guess)
+            .map_err(|error| equation.explained(error, h, guess.is_some()))?;
         match equation.on_constraints(step, h) {
             // A guess that has led off N is left by the caller.
             Err(StepError::NoRealSolution { .. }) if guess.is_none() => {
                 step_at_length_by(system, &equation, state, h)
                     .and_then(|step| equation.on_constraints(step, h))
-                    .map_err(|error| equation.explained(error, h))
+                    .map_err(|error| equation.explained(error, h, false))
             }
             other => other,
         }

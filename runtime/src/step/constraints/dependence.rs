@@ -33,9 +33,14 @@ where
 {
     /// The error of a step of size `h`, by the constraints where these are its cause: where they depend on
     /// one another and are not redundant. Without the standard library they are taken for its cause.
+    ///
+    /// From a guess the error stays as it is: the caller goes on without one.
     #[cold]
     #[inline(never)]
-    pub(super) fn explained(&self, error: StepError, h: L::Scalar) -> StepError {
+    pub(super) fn explained(&self, error: StepError, h: L::Scalar, has_guess: bool) -> StepError {
+        if has_guess {
+            return error;
+        }
         match self.dependence(error) {
             Some(dependence) if !cfg!(feature = "std") || !self.may_hold(h) => dependence,
             _ => error,
@@ -84,12 +89,17 @@ where
     let gradients = system.constraint_gradients(q).1;
     let directions = gradients.transpose();
     let answers = by_columns(&directions, |direction| inertia.solve(direction));
-    let found = Independent::with_redundant(&gradients, &directions, &answers);
-    let Some((independent, redundant)) = found else { return false };
-    // Onto d with G d = 0.
+    let Some(independent) = Independent::of(&gradients, &directions, &answers) else { return false };
+    // Onto d with G d = 0, and onto κ with Gᵀκ = 0.
     let along = SMatrix::identity() - answers * by_columns(&gradients, |column| independent.solve(column));
+    let redundant =
+        SMatrix::identity() - by_columns(&(gradients * answers), |column| independent.solve(column));
     let least = S::EPSILON.sqrt();
-    redundant.data.0.iter().all(|kappa| {
+    redundant.data.0.iter().enumerate().all(|(k, kappa)| {
+        // Rounding is left where a constraint depends on no others.
+        if kappa.get(k).is_none_or(|own| own.abs() <= least) {
+            return true;
+        }
         let kappa = SVector::from(*kappa);
         let curvature = along.transpose() * system.constraint_curvature(q, &kappa) * along;
         let terms = along.abs().transpose() * curvature_terms(system, q, &kappa) * along.abs();

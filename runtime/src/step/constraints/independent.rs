@@ -120,36 +120,6 @@ impl<S: Scalar, const M: usize> Independent<S, M> {
         directions: &SMatrix<S, N, M>,
         answers: &SMatrix<S, N, M>,
     ) -> Option<Self> {
-        Self::eliminated(rows, directions, answers, Self::of_least_norm)
-    }
-
-    /// [`of`](Self::of), with the sums of the gradients G(q0) of which rounding alone is left: those of
-    /// redundant constraints by columns, 0 of the others.
-    #[cold]
-    #[inline(never)]
-    pub(super) fn with_redundant<const N: usize>(
-        rows: &SMatrix<S, M, N>,
-        directions: &SMatrix<S, N, M>,
-        answers: &SMatrix<S, N, M>,
-    ) -> Option<(Self, SMatrix<S, M, M>)> {
-        Self::eliminated(rows, directions, answers, |all| {
-            let mut redundant: SMatrix<S, M, M> = nalgebra::zero();
-            let columns = redundant.data.0.iter_mut().zip(all);
-            for (column, left) in columns.filter(|(_, left)| left.kind == Kind::Redundant) {
-                [*column] = left.of_directions.data.0;
-            }
-            (Self::of_least_norm(all), redundant)
-        })
-    }
-
-    /// Elimination of all constraints, and what is `made` of them.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn eliminated<const N: usize, T>(
-        rows: &SMatrix<S, M, N>,
-        directions: &SMatrix<S, N, M>,
-        answers: &SMatrix<S, N, M>,
-        made: impl FnOnce(&[Left<S, N, M>; M]) -> T,
-    ) -> Option<T> {
         let rows = rows.transpose();
         let mut all = [Left::<S, N, M>::whole(0, nalgebra::zero(), nalgebra::zero()); M];
         for (k, (left, (a, y))) in all.iter_mut().zip(answers.data.0.iter().zip(&rows.data.0)).enumerate() {
@@ -182,7 +152,7 @@ impl<S: Scalar, const M: usize> Independent<S, M> {
             let open = all.iter_mut().filter(|left| left.kind == Kind::Open);
             open.for_each(|left| left.take_off(&taken));
         }
-        Some(made(&all))
+        Some(Self::of_least_norm(&all))
     }
 
     /// κ without what the redundant constraints add to it without a reaction, and b without what no reaction
