@@ -1,4 +1,4 @@
-//! What friction does at given slips, and how its forces turn with them.
+//! Friction at given slips, and how its forces turn with them.
 
 use nalgebra::{SMatrix, SVector};
 
