@@ -27,6 +27,7 @@ mod rates;
 mod root;
 mod set;
 mod slipping;
+mod state;
 mod sticking;
 mod unturned;
 

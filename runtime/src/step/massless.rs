@@ -64,8 +64,8 @@ impl<const N: usize> Massless<N> {
         massless
     }
 
-    /// Those of the coordinates whose velocity no force holds that is smooth in it, neither theirs nor that of
-    /// another: dry friction alone can, if anything does. `smooth` has all forces but those of kinks.
+    /// Coordinates of these whose velocity stands in no force that is smooth in it, neither theirs nor
+    /// another: dry friction alone holds it, if anything does. `smooth` has all forces but those of kinks.
     #[cold]
     #[inline(never)]
     pub(crate) fn held_by_kinks<S: Scalar>(

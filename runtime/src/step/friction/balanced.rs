@@ -9,8 +9,8 @@
 //! beyond it would be off by what forces change in half a step, to one side and the other in turn for ever.
 //! So the second half of the step has a line of its own in Y, with the balance at its end: the least of
 //! V + R_k over the places that Y can move to, as the return to the yield surface of plasticity (J. C. Simo,
-//! T. J. R. Hughes, Computational Inelasticity, 1998, ch. 1). A spring and a slider in series follow their law
-//! to rounding as long as the stretch goes one way in each half step, also where a start or an input has the
+//! T. J. R. Hughes, Computational Inelasticity, 1998, ch. 1). A spring and a slider in series follow
+//! their law to rounding as long as the stretch goes one way in each half step, also where a start or an input has the
 //! force beyond its limit. p is 0 there before and after, and forces of the middle push what has mass.
 
 use nalgebra::{SMatrix, SVector};

@@ -8,8 +8,8 @@
 //! (h/2) (∂L/∂q + f)(q, v̄) ∈ (h/2) ∂R_k(q̄, v1) in Y,        q = q̄, and q0 + (h/2) v1 in Y
 //! ```
 //!
-//! At v1 = v̄ it is the first line, so that what slid slides on and what held holds. Its matrix is that of the
-//! first line, which a spring makes regular.
+//! At v1 = v̄ it is the first line, so that what slid slides on and what held holds. Its matrix is that of
+//! the first line, which a spring makes regular.
 
 use nalgebra::{SMatrix, SVector};
 

@@ -18,8 +18,8 @@ const HALVINGS: u32 = 40;
 /// known.
 const SHARES: [f64; 6] = [0.0, 0.0625, 0.125, 0.25, 0.5, 0.75];
 
-/// Shares of the longest velocity in reach at which the slope of the objective is looked at, from half to half
-/// and evenly.
+/// Shares of the longest velocity in reach at which the slope of the objective is looked at, from half to
+/// half and evenly.
 const LOOKS: [f64; 24] = [
     0.0005, 0.001, 0.002, 0.004, 0.008, 0.016, 0.032, 0.063, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5,
     0.55, 0.6, 0.7, 0.8, 0.9, 0.95, 1.0,

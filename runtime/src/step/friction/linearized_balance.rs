@@ -10,7 +10,7 @@ use super::balanced::{Balanced, OF_FORCES};
 use super::end::forces;
 use super::equation::direction_of;
 use super::line::Line;
-use super::linearized::State;
+use super::state::State;
 use crate::numbers::Scalar;
 use crate::step::StepError;
 use crate::step::massless::Massless;
@@ -103,12 +103,12 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedBalance<S, N, M> {
         from + self.light.rows(&v) * self.half
     }
 
-    /// What is asked where the balance is.
+    /// Asks where the balance is.
     pub(super) fn at<T>(&self, asked: impl Fn(&SVector<S, N>, &SVector<S, N>) -> T) -> T {
         asked(&self.q, &self.of_forces)
     }
 
-    /// What parameters move at fixed (q, v).
+    /// The moves by parameters at fixed (q, v).
     pub(super) fn by_parameters<L, const P: usize>(&self, system: &L) -> MovedBalance<S, N, M, P>
     where
         L: DryFrictionParameters<N, M, P, Scalar = S> + Parameters<N, P>,
@@ -120,7 +120,7 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedBalance<S, N, M> {
     }
 }
 
-/// What moves the balance −F + D s and its slips.
+/// Moves of the balance −F + D s and its slips.
 pub(super) struct MovedBalance<S, const N: usize, const M: usize, const K: usize> {
     pub(super) balance: SMatrix<S, N, K>,
     pub(super) slip: SMatrix<S, M, K>,

@@ -67,8 +67,8 @@ where
     Some(massless.rows(&sticking_in(&light, &motion.slips(&start), &v, &held)) + start)
 }
 
-/// The places to which the coordinates `light` jump where no friction bears the forces at (q, v): with a little
-/// friction that is smooth they would be there before anything else has moved, belts neither.
+/// The places to which the coordinates `light` jump where no friction bears the forces at (q, v): with
+/// a little friction that is smooth they would be there before anything else has moved, belts neither.
 fn at_once<L, const N: usize, const M: usize>(
     system: &L,
     light: &Massless<N>,
@@ -196,7 +196,7 @@ struct Released<S, const N: usize, const M: usize> {
     directions: SMatrix<S, N, M>,
     /// Row by row, the slips.
     rows: SMatrix<S, M, N>,
-    /// What they are to be.
+    /// The slips that are asked for.
     slip: SVector<S, M>,
     sticks: [bool; M],
 }

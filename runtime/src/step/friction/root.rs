@@ -23,7 +23,7 @@ pub(super) struct Line<S, F, const N: usize, const M: usize> {
     pub(super) factored: F,
     /// u(x) and ∂u/∂x.
     pub(super) slips: Slips<S, N, M>,
-    /// What friction may take away of F, beside which roundings of x count.
+    /// Sizes of the terms of F that friction may take away, beside which roundings of x count.
     pub(super) beside: SVector<S, N>,
     /// Whether one correction leads to the root.
     pub(super) is_linear: bool,
