@@ -158,13 +158,13 @@ impl Motion {
             (self.q, self.v, self.forces) = (q, v, forces);
             left -= time;
             if is_event {
-                for j in 0..SLIDERS {
+                for (j, force) in forces.into_iter().enumerate() {
                     let slides = match before.slides[j] {
-                        true => v * forces[j] >= 0.0,
-                        false => forces[j].abs() > s.mu[j] && v * forces[j] > 0.0,
+                        true => v * force >= 0.0,
+                        false => force.abs() > s.mu[j] && v * force > 0.0,
                     };
                     if slides && !before.slides[j] {
-                        self.forces[j] = s.mu[j].copysign(forces[j]);
+                        self.forces[j] = s.mu[j].copysign(force);
                     }
                     self.events += usize::from(slides != before.slides[j]);
                     self.slides[j] = slides;
