@@ -191,7 +191,7 @@ pub(super) fn factored<S: Scalar, const N: usize>(
 
 /// The matrix made ready; nothing where rounding has taken half of the digits of a pivot, so that to refine a
 /// solution once does not give all of them.
-#[inline]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn factored_to_half<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
 ) -> Option<FactoredDense<S, N>> {
