@@ -71,7 +71,7 @@ fn beside_redundant_constraints_a_step_that_is_too_long_asks_for_a_smaller_one()
 #[test]
 fn a_taut_rope_asks_for_no_smaller_step() -> Result<(), StepError> {
     let mut draws = Draws::new(7);
-    for seed in 0..if cfg!(debug_assertions) { 10 } else { 60 } {
+    for seed in 0..if cfg!(debug_assertions) { 6 } else { 60 } {
         let mut drawn = Drawn::of(&Rope::SHAPE, 6, seed);
         drawn.values.gravity = [0.0, -9.81, 0.0];
         drawn.values.forces[0].numbers = [0.0; 3];
@@ -126,7 +126,7 @@ impl Rod {
 #[test]
 fn lengths_that_contradict_each_other_in_time_ask_for_no_smaller_step() -> Result<(), StepError> {
     let mut draws = Draws::new(11);
-    for _ in 0..200 {
+    for _ in 0..if cfg!(debug_assertions) { 20 } else { 200 } {
         let cubic = draws.below(2);
         let first = draws.between(-1.0, 1.0);
         // At h/256 they differ by some thousand roundings at least.

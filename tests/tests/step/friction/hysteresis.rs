@@ -22,6 +22,7 @@ struct Pulled {
 
 const PULLED: Pulled = Pulled { x: 1.0, k: [1.0, 2.0, 3.0], mu: [0.8, 0.6, 0.3] };
 
+#[allow(clippy::needless_range_loop, reason = "indices as in the formula")]
 #[rayleigh_system(rule = proximal)]
 impl Pulled {
     fn lagrangian(&self, q: [f64; 3], _v: [f64; 3], t: f64) -> f64 {
