@@ -10,8 +10,9 @@
 //! So the second half of the step has a line of its own in Y, with the balance at its end: the least of
 //! V + R_k over the places that Y can move to, as the return to the yield surface of plasticity (J. C. Simo,
 //! T. J. R. Hughes, Computational Inelasticity, 1998, ch. 1). A spring and a slider in series follow
-//! their law to rounding as long as the stretch goes one way in each half step, also where a start or an input has the
-//! force beyond its limit. p is 0 there before and after, and forces of the middle push what has mass.
+//! their law to rounding as long as the stretch goes one way in each half step, also where a start or
+//! an input has the force beyond its limit. p is 0 there before and after, and forces of the middle push what
+//! has mass.
 
 use nalgebra::{SMatrix, SVector};
 

@@ -106,7 +106,8 @@ fn what_slides_follows() -> Result<(), StepError> {
 fn random_systems_have_their_motion() -> Result<(), StepError> {
     let mut draws = Draws::new(0x6877_616e);
     let (count, time) = (if cfg!(debug_assertions) { 20 } else { 1000 }, 5.0);
-    let (mut events, mut slide, mut off, mut controls) = (0, 0, [0.0_f64; 3], 0);
+    let (mut events, mut slide, mut seen, mut controls) = (0, 0, 0, 0);
+    let (mut off, mut sums) = ([0.0_f64; 2], [0.0_f64; 2]);
     for number in 0..count {
         let iwan = Iwan::drawn(&mut draws);
         let (q, v) = (draws.between(-1.0, 1.0), draws.between(-2.0, 2.0));
@@ -114,10 +115,12 @@ fn random_systems_have_their_motion() -> Result<(), StepError> {
         let mut motion = Motion::new(iwan, q, v, forces);
         let start = State::from_velocity(&iwan, motion.place(), [v, 7.0, 7.0, 7.0])?;
         assert_eq!(start.p, vector![iwan.m * v, 0.0, 0.0, 0.0]);
-        motion.advance(time);
+        motion.advance(0.95 * time);
+        let slid = motion.slides;
+        motion.advance(0.05 * time);
         events += motion.events;
         slide += motion.slides.iter().filter(|slides| **slides).count();
-        let error = |iwan: Iwan, steps: usize| -> Result<f64, StepError> {
+        let mut error = |iwan: Iwan, steps: usize| -> Result<f64, StepError> {
             let by = iwan.by(Proximal, time / steps as f64);
             let (mut state, mut remainder, mut taken) = (start, 0.0_f64, 0.0);
             for step in by.run(start).take(steps) {
@@ -130,6 +133,12 @@ fn random_systems_have_their_motion() -> Result<(), StepError> {
             }
             let v = state.velocity(&iwan)?;
             for j in 0..SLIDERS {
+                // At an event the steps may be on the other side of it.
+                let room = iwan.mu[j] - motion.forces[j].abs();
+                if motion.v.abs() < 0.05 || motion.slides[j] != slid[j] || !slid[j] && room < 0.05 {
+                    continue;
+                }
+                seen += 1;
                 let expected = if (iwan.at_mass[j] == 1.0) == motion.slides[j] { v[0] } else { 0.0 };
                 assert!((v[j + 1] - expected).abs() < 1e-9, "{number}, slider {j}: {v} {motion:?}");
             }
@@ -142,7 +151,8 @@ fn random_systems_have_their_motion() -> Result<(), StepError> {
             Ok(off.max((taken - motion.dissipated).abs()))
         };
         let found = [error(iwan, 100)?, error(iwan, 400)?];
-        off = [off[0].max(found[0]), off[1].max(found[1]), off[2].max(found[1] / found[0])];
+        off = [off[0].max(found[0]), off[1].max(found[1])];
+        sums = [sums[0] + found[0], sums[1] + found[1]];
         let other = Iwan { mu: iwan.mu.map(|mu| 1.01 * mu), ..iwan };
         // Where nothing comes to its limit friction does not matter.
         if motion.events > 4 && other.by(Proximal, 0.1).step(&start).is_ok() {
@@ -151,9 +161,10 @@ fn random_systems_have_their_motion() -> Result<(), StepError> {
             controls += usize::from((other_motion.q - motion.q).abs() > 2.0 * found[1]);
         }
     }
-    println!("{off:?}, {events} events, {slide} slide at the end, {controls} tell 1 % of friction");
-    assert!(events > 5 * count && slide > count / 4 && controls > count / 2, "{events} {slide} {controls}");
-    assert!(off[0] < 0.1 && off[1] < 7e-3 && off[2] < 0.7, "{off:?}");
+    let order = (sums[0] / sums[1]).log2() / 2.0;
+    println!("{off:?}, order {order}, {events} events, {seen} velocities, {controls} tell 1 % of friction");
+    assert!(seen > 2 * count && events > 5 * count && slide > count / 4 && controls > count / 2);
+    assert!(off[0] < 0.1 && off[1] < 7e-3 && (order - 2.0).abs() < 0.1, "{off:?} {order}");
     Ok(())
 }
 
