@@ -73,8 +73,8 @@ pub fn ceiling(machine: &str, level: &str, scene: &str) -> Option<Ceiling> {
     Some(Ceiling { mean, worst })
 }
 
-/// Bytes of stack for scenes of a scalar type, on any machine; `f64` after `f32`, and those of constraints and
-/// dry friction after both.
+/// Bytes of stack for scenes of a scalar type, on any machine; `f64` after `f32`, and those of constraints
+/// and dry friction after both.
 pub fn stack_ceiling(scalar: &str) -> Option<u32> {
     match scalar {
         "f32" => Some(4_200),

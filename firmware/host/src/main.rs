@@ -159,7 +159,7 @@ fn main() -> ExitCode {
 mod tests {
     use super::*;
 
-    /// The scenes are of what they are for: the bob swings on its rod, the block comes to rest and stays there.
+    /// The scenes show their subjects: the bob swings on its rod, the block comes to rest and stays there.
     #[test]
     fn the_bob_is_on_its_rod_and_the_block_stands() {
         let (bob, block) = (double::Bob::SCENE, double::Block::SCENE);

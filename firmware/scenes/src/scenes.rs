@@ -1,5 +1,5 @@
-//! What the machines step: the double pendulum that all packages share, a cart-pole with friction, left alone and pushed, a bob on a
-//! constraint, and a block that dry friction holds.
+//! What the machines step: the double pendulum that all packages share, a cart-pole with friction, left alone
+//! and pushed, a bob on a constraint, and a block that dry friction holds.
 
 use dalembert::{Discrete, Midpoint, State, StepError, rayleigh_system};
 

@@ -123,7 +123,7 @@ pub enum StepError {
     /// The objective of a step with friction is not convex: friction falls with the velocity faster than a
     /// step of this length can follow, h max|F′| ≥ 2m; or the step is one back in time, along which friction
     /// pushes. Velocities along a line are looked at, from rest to that of the step and, for another least,
-    /// to that without friction, half by half and evenly: a fall narrower than these are apart is not seen.
+    /// to that without friction, fourteen in all: a fall narrower than these are apart is not seen.
     NotConvex {
         /// The component of the kinks of R, from 0 in the order of R.
         component: usize,

@@ -75,6 +75,25 @@ static void a_rocket(void)
     EXPECT(memcmp(&before, &run, sizeof before) != 0);
 }
 
+/* docs/embedding.md shows it. */
+static void of_the_page(void)
+{
+    rocket_parameters parameters = {
+        .mass = 2.0,
+        .thrust = {.x = {0.0, 0.25, 2.0, 2.25}, .y = {0.0, 60.0, 45.0, 0.0}, .interpolation = DALEMBERT_LINEAR},
+        .rail = {
+            .x = {0.0, 0.5, 1.0, 2.0, 3.0},
+            .y = {2.0, 1.0, 0.5, 0.75, 1.0},
+            .interpolation = DALEMBERT_MONOTONE,
+            .straight_beyond = 1,
+        },
+    };
+    dalembert_wrong_point wrong;
+    if (rocket_wrong_point(&parameters, &wrong) == DALEMBERT_OK && wrong.table != NULL)
+        printf("%s, point %u: %s\n", wrong.table, (unsigned)wrong.point, rocket_text((dalembert_status)wrong.status));
+    EXPECT(wrong.table == NULL);
+}
+
 static void a_bead(void)
 {
     bead_memory *run = malloc(sizeof *run);
@@ -101,6 +120,7 @@ static void a_bead(void)
 
 int main(void)
 {
+    of_the_page();
     a_rocket();
     a_bead();
 #ifdef WRONG

@@ -18,12 +18,9 @@ const HALVINGS: u32 = 40;
 /// known.
 const SHARES: [f64; 6] = [0.0, 0.0625, 0.125, 0.25, 0.5, 0.75];
 
-/// Shares of the longest velocity in reach at which the slope of the objective is looked at, from half to
-/// half and evenly.
-const LOOKS: [f64; 24] = [
-    0.0005, 0.001, 0.002, 0.004, 0.008, 0.016, 0.032, 0.063, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5,
-    0.55, 0.6, 0.7, 0.8, 0.9, 0.95, 1.0,
-];
+/// Shares of the longest velocity in reach at which the slope of the objective is looked at: where
+/// friction falls is not known, so more closely near rest.
+const LOOKS: [f64; 8] = [0.004, 0.03, 0.1, 0.25, 0.4, 0.6, 0.8, 1.0];
 
 /// A share of the velocity of the step nearer than which its own slope, 0, is not looked at.
 const NEAR: f64 = 1e-6;
@@ -228,8 +225,9 @@ where
                 let length = element.length(&slips.values);
                 element.divide(&mut forces, if length > zero { length } else { L::Scalar::constant(1.0) });
             }
-            let directions = direction_of(&slips, segment.h)?;
-            let p0 = self.free.kernel(&at).p0;
+            // Friction that would push at such a speed is none of this step's.
+            let Ok(directions) = direction_of(&slips, segment.h) else { break };
+            let p0 = self.free.momenta(&at).p0;
             let slope = way.dot(&(p0 - self.state.p + directions * forces));
             let terms = p0.abs() + self.state.p.abs() + directions.abs() * forces.abs();
             let least = way.abs().dot(&terms) * L::Scalar::constant(OF_SLOPE) * L::Scalar::EPSILON;

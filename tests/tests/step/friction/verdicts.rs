@@ -130,3 +130,53 @@ fn what_holds_may_be_touched() {
     }
     assert!(held > 100, "{held}");
 }
+
+/// A block whose friction falls from `hold` to `slide` about the velocity `speed`.
+struct Stribeck {
+    hold: f64,
+    slide: f64,
+    speed: f64,
+}
+
+#[rayleigh_system(rule = proximal)]
+impl Stribeck {
+    fn lagrangian(&self, _q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * v[0] * v[0]
+    }
+
+    fn rayleigh(&self, v: [f64; 1]) -> f64 {
+        let speed = v[0].abs();
+        self.slide * speed + (self.hold - self.slide) * self.speed * (speed / self.speed).tanh()
+    }
+}
+
+/// The objective ½v² − pv + (h/2)R, looked at everywhere: with several minima no step is one of them by chance,
+/// and where it is convex none is refused.
+#[test]
+fn a_step_is_refused_where_friction_has_several() {
+    let mut draws = dalembert_tests::draws::Draws::new(5);
+    let (mut several, mut convex) = (0, 0);
+    for _ in 0..if cfg!(debug_assertions) { 2_000 } else { 100_000 } {
+        let (h, slide) = (draws.scale(1e-3, 0.1), draws.between(0.1, 1.1));
+        let system = Stribeck { slide, hold: slide + draws.between(0.0, 2.0), speed: draws.scale(1e-3, 0.1) };
+        let p = draws.between(-1.5, 1.5) * h * system.hold;
+        let slope = |v: f64| {
+            let fallen = (v / system.speed).tanh().powi(2);
+            v - p.abs() + 0.5 * h * (system.hold - (system.hold - slide) * fallen)
+        };
+        let slopes = (0..=500).map(|i| slope(p.abs() * f64::from(i) / 500.0));
+        let minima = slopes.fold((0, f64::NEG_INFINITY), |(minima, before), slope| {
+            (minima + usize::from(before < 0.0 && slope >= 0.0), slope)
+        });
+        // The steepest fall is 4/(3√3) of (hold − slide)/speed.
+        let fall = 4.0 / 27.0_f64.sqrt() * (system.hold - slide) / system.speed;
+        let step = system.by(Proximal, h).step(&State { q: vector![0.0], p: vector![p] });
+        let is_refused = matches!(step, Err(StepError::NotConvex { .. }));
+        assert!(is_refused || step.is_ok(), "{step:?}");
+        assert!(!is_refused || 0.5 * h * fall >= 1.0, "h = {h}, fall {fall}, p = {p}");
+        assert!(is_refused || minima.0 < 2, "h = {h}, fall {fall}, p = {p}: {step:?}");
+        several += usize::from(minima.0 > 1);
+        convex += usize::from(0.5 * h * fall < 1.0);
+    }
+    assert!(several > 20 && convex > 1_000, "{several} with several minima, {convex} convex");
+}
