@@ -150,8 +150,8 @@ impl Stribeck {
     }
 }
 
-/// The objective ½v² − pv + (h/2)R, looked at everywhere: with several minima no step is one of them by chance,
-/// and where it is convex none is refused.
+/// The objective ½v² − pv + (h/2)R, looked at everywhere: with several minima no step is one of them by
+/// chance, and where it is convex none is refused.
 #[test]
 fn a_step_is_refused_where_friction_has_several() {
     let mut draws = dalembert_tests::draws::Draws::new(5);
