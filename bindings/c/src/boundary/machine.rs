@@ -80,7 +80,7 @@ impl<C: Entered<N>, const N: usize> Clone for Machine<C, N> {
 /// The system of these parameters, none of which is NaN, and tables of which have the right points.
 ///
 /// # Errors
-/// [`Status::ParameterNan`], or the status of a [`WrongPoints`].
+/// [`Status::ParameterNan`], or the status of a [`WrongPoints`](dalembert_face::WrongPoints).
 pub fn parameters<P: CParameters>(given: &P::Given) -> Result<P, Status> {
     if given.has_nan() {
         return Err(Status::ParameterNan);
