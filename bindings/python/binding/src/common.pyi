@@ -87,7 +87,7 @@ class Table:
     @overload
     def __call__(self, x: _Numbers) -> _Array:
         """The values at x, a number or an array."""
-    def __eq__(self, other: object) -> bool: ...
+    def __eq__(self, other: object, /) -> bool: ...
 
 @final
 class Plane:
