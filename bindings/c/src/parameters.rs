@@ -24,13 +24,9 @@ macro_rules! parameters {
         $vis:vis struct $name:ident { $($(#[doc = $field_doc:expr])* pub $field:ident: $kind:ty),+ $(,)? }
     ) => {
         $crate::face::fields! {
+            @plain $crate::boundary::Plain;
             $(#[doc = $doc])*
             $vis struct $name { $($(#[doc = $field_doc])* pub $field: $kind),+ }
         }
-
-        // SAFETY: repr(C), and each field is what a FieldType is given as, so Plain; bytes between fields are
-        // not read.
-        #[allow(unsafe_code)]
-        unsafe impl $crate::boundary::Plain for <$name as $crate::face::Fields>::Given {}
     };
 }

@@ -224,6 +224,7 @@ pub trait Fields: Copy + 'static {
 #[macro_export]
 macro_rules! fields {
     (
+        $(@plain $plain:path;)?
         $(#[doc = $doc:expr])*
         $vis:vis struct $name:ident { $($(#[doc = $field_doc:expr])* pub $field:ident: $kind:ty),* $(,)? }
     ) => {
@@ -261,6 +262,8 @@ macro_rules! fields {
                 $crate::fields! { @implemented $($field: $field;)* }
             }
 
+            $crate::fields! { @is_plain [$($plain)?] $($field)* }
+
             // With the bounds a wrong type is said of the whole, not of each use.
             impl $crate::Fields for $name
             where
@@ -272,6 +275,13 @@ macro_rules! fields {
                 $crate::fields! { @implemented $($field: $kind;)* }
             }
         };
+    };
+    (@is_plain [] $($field:ident)*) => {};
+    // Of the struct by its name: what another crate says of its own types is known to be none of it.
+    (@is_plain [$plain:path] $($field:ident)*) => {
+        // SAFETY: repr(C), and each field is what a FieldType is given as; bytes between fields are not read.
+        #[allow(unsafe_code)]
+        unsafe impl<$($field: $crate::FieldType<Given = $field>),*> $plain for Given<$($field),*> {}
     };
     (@implemented $($field:ident: $kind:ty;)*) => {
         const ZERO: Self = Self { $($field: <$kind as $crate::FieldType>::ZERO,)* };

@@ -124,7 +124,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
         if let Err(error) = found {
             require_determined_nearby(system, &massless, &self.q, &rest, error)?;
         }
-        if massless.are_any() {
+        if L::STRUCTURE.kinks > 0 && massless.are_any() {
             // Dry friction acts beside velocities with mass.
             let at_rest = |q: &SVector<S, N>, v: &SVector<S, N>| massless.at_rest(system, q, v);
             if let Ok(others) = self.velocity_of(system, &massless, &at_rest, None)

@@ -225,7 +225,7 @@ impl<const N: usize> Massless<N> {
             return Ok(());
         }
         require_regular(&self.balance_at(system, q, v, L::Scalar::constant(1.0)).by_v).or_else(|error| {
-            match self.are_any() && system.massless_velocity(q, v).is_some() {
+            match L::STRUCTURE.kinks > 0 && self.are_any() && system.massless_velocity(q, v).is_some() {
                 true => Ok(()),
                 false => Err(error),
             }

@@ -33,7 +33,7 @@ const CEILINGS: [Ceiling; 3] = [
             0.5 * self.drag * (v[0] * v[0] + (v[1] - v[0]).powi(2))
         }",
         is_in_lanes: false,
-        one: [2665, 5160],
+        one: [2715, 5350],
         more: [6165, 13305],
     },
     Ceiling {
@@ -47,8 +47,8 @@ const CEILINGS: [Ceiling; 3] = [
             self.drag * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
         }",
         is_in_lanes: false,
-        one: [3045, 5965],
-        more: [6655, 14510],
+        one: [3175, 6300],
+        more: [6710, 14700],
     },
     Ceiling {
         name: "seven links",
