@@ -234,8 +234,9 @@ where
             let near = own * L::Scalar::constant(NEAR);
             let falls_back = speed < own - near && slope > least;
             if falls_back || speed > own + near && slope < -least {
-                let largest = forces.amax();
-                let component = forces.iter().position(|force| force.abs() == largest).unwrap_or(0);
+                let sizes = forces.abs();
+                let largest = sizes.amax();
+                let component = sizes.iter().position(|size| *size == largest).unwrap_or(0);
                 let error = StepError::NotConvex { component, h: segment.h.widen(), enough: 0.0 };
                 self.error.set(Some(error));
                 self.at.set(v);
