@@ -76,9 +76,10 @@ impl<const N: usize> Massless<N> {
         let mut held = *self;
         for (q, v) in at_rest_and_beside(q) {
             let by_velocity = smooth(&q, &v).d2.data.0;
-            for i in 0..N {
-                for j in 0..N {
-                    held.0[i] &= by_velocity[j][i] == S::zero() && by_velocity[i][j] == S::zero();
+            for (j, column) in by_velocity.iter().enumerate() {
+                let is_zero = column.iter().all(|entry| *entry == S::zero());
+                for (i, (held, entry)) in held.0.iter_mut().zip(column).enumerate() {
+                    *held &= *entry == S::zero() && (i != j || is_zero);
                 }
             }
         }
