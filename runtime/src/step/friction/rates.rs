@@ -27,7 +27,7 @@ use super::set::Held;
 use super::sticking::sticking_in;
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::step::massless::Massless;
-use crate::system::{DryFriction, Slips, is_timed};
+use crate::system::{DryFriction, Slips, is_timed, sizes};
 
 /// The longest time over which a force is seen to change; each next one is half as long.
 const LONGEST: f64 = 1.0 / 4096.0;
@@ -203,9 +203,9 @@ struct Released<S, const N: usize, const M: usize> {
 
 impl<S: Scalar, const N: usize, const M: usize> Released<S, N, M> {
     /// Releases what slides, along the forces s: across its way a length neither slips nor bears less.
-    fn release(&mut self, sizes: &[usize], forces: &SVector<S, M>) {
+    fn release(&mut self, components: &[usize], forces: &SVector<S, M>) {
         let sticks = self.sticks;
-        for element in elements(sizes).filter(|element| element.head(&sticks) == Some(false)) {
+        for element in elements(components).filter(|element| element.head(&sticks) == Some(false)) {
             if element.size > 1 {
                 let s = element.part(forces);
                 self.directions -= self.directions * s * s.transpose();
@@ -215,8 +215,8 @@ impl<S: Scalar, const N: usize, const M: usize> Released<S, N, M> {
             }
         }
         // What moves nothing here is no equation.
-        let sizes = self.rows.abs().column_sum();
-        let idle = self.sticks.iter_mut().zip(sizes.as_slice()).filter(|(_, size)| **size == S::zero());
+        let moved = sizes(&self.rows, &SVector::repeat(S::one()));
+        let idle = self.sticks.iter_mut().zip(moved.as_slice()).filter(|(_, size)| **size == S::zero());
         idle.for_each(|(stick, _)| *stick = false);
         let open = self.slip.as_mut_slice().iter_mut().zip(&self.sticks).filter(|(_, stick)| !**stick);
         open.for_each(|(slip, _)| *slip = S::zero());

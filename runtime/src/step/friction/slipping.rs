@@ -7,7 +7,7 @@ use super::element::elements;
 use super::end;
 use crate::numbers::Scalar;
 use crate::step::{ClosedForm, Discrete, Segment, State, StepError};
-use crate::system::{DryFriction, Slips};
+use crate::system::{DryFriction, Slips, sizes};
 
 /// Roundings of its terms below which a slip counts as none.
 const ROUNDINGS: f64 = 64.0;
@@ -65,9 +65,10 @@ impl<S: Scalar, const M: usize> Slipping<S, M> {
             let q = at_end(system, segment, &end)?.q;
             return system.later(segment.h, |system| {
                 let mut slipping = Self::at(system, &State { q, p: end.p })?;
-                let rows = end.light.columns(&system.slips(&q, &end.v).by_velocity).abs().column_sum();
-                let touched = slipping.by_end.iter_mut().zip(rows.as_slice());
-                touched.for_each(|(by_end, row)| *by_end = *row > S::zero());
+                let rows = end.light.columns(&system.slips(&q, &end.v).by_velocity);
+                let moved = sizes(&rows, &SVector::repeat(S::one()));
+                let touched = slipping.by_end.iter_mut().zip(moved.as_slice());
+                touched.for_each(|(by_end, moved)| *by_end = *moved > S::zero());
                 Ok(slipping)
             });
         }
