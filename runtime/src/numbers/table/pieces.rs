@@ -10,12 +10,17 @@
 //!
 //! Each piece holds, while slopes are solved for, what elimination leaves in its row: no memory but that of
 //! the pieces is needed. No row needs a pivot: what is left of a row's diagonal is above its neighbour.
+//!
+//! All is inlined: where the lengths are compared every index is seen to be within bounds, and no panic is
+//! left where C gives the points.
+//!
 //! F. N. Fritsch and J. Butland, A method for constructing local monotone piecewise cubic interpolants, SIAM
 //! Journal on Scientific and Statistical Computing 5, 1984.
 
 use super::{Interpolation, TableError};
 
 /// Writes the cubics.
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) const fn fill(
     of: Interpolation,
     x: &[f64],
@@ -49,6 +54,7 @@ pub(super) const fn fill(
     Ok(())
 }
 
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn checked(of: Interpolation, x: &[f64], y: &[f64], pieces: usize) -> Result<(), TableError> {
     let points = x.len();
     if y.len() != points || pieces != points {
@@ -77,16 +83,19 @@ const fn checked(of: Interpolation, x: &[f64], y: &[f64], pieces: usize) -> Resu
     Ok(())
 }
 
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn width(x: &[f64], i: usize) -> f64 {
     x[i + 1] - x[i]
 }
 
 /// mᵢ.
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn secant(x: &[f64], y: &[f64], i: usize) -> f64 {
     (y[i + 1] - y[i]) / width(x, i)
 }
 
 /// The pieces of straight lines; the one at the last point goes on by the slope before.
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn linear(x: &[f64], y: &[f64], pieces: &mut [[f64; 4]]) {
     let last = x.len() - 1;
     let mut i = 0;
@@ -98,6 +107,7 @@ const fn linear(x: &[f64], y: &[f64], pieces: &mut [[f64; 4]]) {
 }
 
 /// The cubics of slopes, which stand in the second place of each piece.
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn cubics(x: &[f64], y: &[f64], pieces: &mut [[f64; 4]]) {
     let last = x.len() - 1;
     let mut i = 0;
@@ -113,10 +123,12 @@ const fn cubics(x: &[f64], y: &[f64], pieces: &mut [[f64; 4]]) {
 }
 
 /// The slopes of a parabola through three points, at the first; `h` and `m` from there on.
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn end_slope(h: [f64; 2], m: [f64; 2]) -> f64 {
     ((2.0 * h[0] + h[1]) * m[0] - h[0] * m[1]) / (h[0] + h[1])
 }
 
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn spline(x: &[f64], y: &[f64], pieces: &mut [[f64; 4]]) {
     let last = x.len() - 1;
     if last == 1 {
@@ -145,12 +157,14 @@ const fn spline(x: &[f64], y: &[f64], pieces: &mut [[f64; 4]]) {
 }
 
 /// The right side of a not-a-knot end; `h` and `m` from the end on.
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn at_end(h: [f64; 2], m: [f64; 2]) -> f64 {
     let whole = h[0] + h[1];
     (3.0 * h[0] + 2.0 * h[1]) * (h[1] / whole) * m[0] + h[0] * (h[0] / whole) * m[1]
 }
 
 /// One row of elimination: row · (dᵢ₋₁, dᵢ, dᵢ₊₁) = right.
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn eliminate(pieces: &mut [[f64; 4]], i: usize, row: [f64; 3], right: f64) {
     let before = if i == 0 { [0.0; 4] } else { pieces[i - 1] };
     let pivot = row[1] - row[0] * before[2];
@@ -159,6 +173,7 @@ const fn eliminate(pieces: &mut [[f64; 4]], i: usize, row: [f64; 3], right: f64)
 }
 
 /// Back from the unknown `last`, in this place of the pieces.
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn substitute(pieces: &mut [[f64; 4]], last: usize, place: usize) {
     let mut i = last;
     while i > 0 {
@@ -167,6 +182,7 @@ const fn substitute(pieces: &mut [[f64; 4]], last: usize, place: usize) {
     }
 }
 
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn monotone(x: &[f64], y: &[f64], pieces: &mut [[f64; 4]]) {
     let last = x.len() - 1;
     if last == 1 {
@@ -190,6 +206,7 @@ const fn monotone(x: &[f64], y: &[f64], pieces: &mut [[f64; 4]]) {
 }
 
 /// The slope at an end that keeps the first piece monotone: that of the parabola, within bounds.
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn one_sided(h: [f64; 2], m: [f64; 2]) -> f64 {
     let slope = end_slope(h, m);
     if !have_one_sign(slope, m[0]) {
@@ -202,12 +219,14 @@ const fn one_sided(h: [f64; 2], m: [f64; 2]) -> f64 {
 }
 
 /// Whether both are above 0, or both below.
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn have_one_sign(a: f64, b: f64) -> bool {
     (a > 0.0 && b > 0.0) || (a < 0.0 && b < 0.0)
 }
 
 /// The slopes of the cyclic equations: those of the rows but the last one as a line in the last
 /// slope, u + w t, and t of the last row.
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn periodic(x: &[f64], y: &[f64], pieces: &mut [[f64; 4]]) {
     let unknowns = x.len() - 1;
     let last = unknowns - 1;
@@ -243,6 +262,7 @@ const fn periodic(x: &[f64], y: &[f64], pieces: &mut [[f64; 4]]) {
 }
 
 /// A row of the cyclic equations, and its right side.
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn cyclic(x: &[f64], y: &[f64], i: usize) -> ([f64; 3], f64) {
     let j = if i == 0 { x.len() - 2 } else { i - 1 };
     let (before, after) = (width(x, j), width(x, i));
@@ -251,6 +271,7 @@ const fn cyclic(x: &[f64], y: &[f64], i: usize) -> ([f64; 3], f64) {
 }
 
 /// Rounds knots and cubics to single precision.
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) const fn round(
     (x, pieces): (&[f64], &[[f64; 4]]),
     (to_x, to_pieces): (&mut [f32], &mut [[f32; 4]]),
