@@ -7,6 +7,7 @@ mod many;
 mod sliders;
 mod unturned;
 mod verdicts;
+mod without_mass;
 
 use dalembert::nalgebra::{Vector2, vector};
 use dalembert::step::Step;

@@ -36,8 +36,10 @@ pub struct LinearizedFriction<S: Scalar, const N: usize, const M: usize> {
     slip_by_q0: SMatrix<S, M, N>,
     second: Line<S, N, M>,
     of_second: State<S, N, M>,
-    /// v1.
+    /// q1 as v̄ has it, v1, and h/2.
+    q: SVector<S, N>,
     v: SVector<S, N>,
+    half: S,
     /// ½ d(D s1) and ½ du of what sticks in the second line, by q.
     half_impulse: SMatrix<S, N, N>,
     half_slip: SMatrix<S, M, N>,
@@ -140,7 +142,9 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
             slip_by_q0,
             second,
             of_second: at,
+            q: q1,
             v: end.v,
+            half: h * half,
             half_impulse,
             half_slip,
             mass: l.d22,
@@ -180,6 +184,11 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
         Ok(StateBy { q, p })
     }
 
+    /// The equations for v1 but for coordinates that the kinks alone hold.
+    fn beside_light<const K: usize>(&self, equations: SMatrix<S, N, K>) -> SMatrix<S, N, K> {
+        self.light.as_ref().map_or(equations, |light| light.coordinates.without(&equations))
+    }
+
     pub(super) fn by_state(&self, k: &LegendreDerivatives<S, N>) -> Result<PhaseMatrix<S, N>, StepError> {
         let (one, zero) = (SMatrix::identity(), SMatrix::zeros());
         let by_q = self.carried(k, &StateBy { q: one, p: zero }, &Moved::none())?;
@@ -195,6 +204,10 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
         at_end: impl Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, P>,
     ) -> Result<StateBy<S, N, P>, StepError> {
         let mut moved = Moved { p0: momenta.p0, p1: momenta.p1, ..Moved::none() };
+        if self.massless.are_any() {
+            let forces = self.massless.rows(&at_end(&self.q, &self.v));
+            moved.balance = self.beside_light(-forces * self.half);
+        }
         if let Some(light) = &self.light {
             moved.places.balance = -light.balance.at(at_end);
         }
@@ -212,8 +225,8 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
     where
         L: DryFrictionParameters<N, M, P, Scalar = S> + Parameters<N, P>,
     {
-        let half = segment.h * S::constant(0.5);
-        let (middle, q1) = (segment.q0 + segment.v * half, segment.end());
+        let (half, q1) = (self.half, self.q);
+        let middle = segment.q0 + segment.v * half;
         let by = |v: &SVector<S, N>, at: &State<S, N, M>| {
             let mut by = system.later(half, |system| system.slips_by_parameters(&middle, v, &at.forces));
             let impulse = by.force * half + at.turning * by.values;
@@ -232,8 +245,7 @@ impl<S: Scalar, const N: usize, const M: usize> LinearizedFriction<S, N, M> {
                 };
                 l.d1 + smooth + system.force_by_parameters(&q1, &self.v)
             };
-            let balance = self.massless.balance_by(&l.d2, forces, half);
-            (l.d2, self.light.as_ref().map_or(balance, |light| light.coordinates.without(&balance)))
+            (l.d2, self.beside_light(self.massless.balance_by(&l.d2, forces, half)))
         });
         let moved = Moved {
             p0: momenta.p0 + impulse,

@@ -69,25 +69,6 @@ impl Puck {
     }
 }
 
-/// A mass on a spring and, behind it, a dashpot whose end has no mass and rubs.
-#[derive(Clone, Copy)]
-struct Series {
-    k: f64,
-    c: f64,
-    limit: f64,
-}
-
-#[rayleigh_system(rule = proximal, parameters = [k, c, limit])]
-impl Series {
-    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
-        0.5 * v[0] * v[0] - 0.5 * self.k * (q[0] - q[1]).powi(2) - 0.2 * q[1] * q[1]
-    }
-
-    fn rayleigh(&self, v: [f64; 2]) -> f64 {
-        0.5 * self.c * v[1] * v[1] + self.limit * v[0].abs()
-    }
-}
-
 const H: f64 = 0.1;
 const DIFFERENCE: f64 = 1e-6;
 
@@ -185,34 +166,4 @@ fn a_length_that_turns_is_differentiated() {
     let start = State { q: Vector2::new(0.3, 0.1), p: Vector2::new(0.2, -0.3) };
     let a = PUCK.by(Proximal, H).linearized(&start).unwrap().by_state().unwrap();
     assert!((a.p_by_p.determinant() - 1.0).abs() > 1e-3);
-}
-
-/// Forces balance in a coordinate without mass, with parameters of their own.
-#[test]
-fn a_coordinate_without_mass_is_differentiated_by_parameters() {
-    const SERIES: Series = Series { k: 4.0, c: 3.0, limit: 0.2 };
-    let mut draws = Draws::new(5);
-    let mut sticks = 0;
-    for trial in 0..60 {
-        let size = if trial % 2 == 0 { 0.01 } else { 0.5 };
-        let start = State {
-            q: Vector2::from_fn(|_, _| size * draws.between(-1.0, 1.0)),
-            p: Vector2::new(size * draws.between(-1.0, 1.0), 0.0),
-        };
-        let taken = SERIES.by(Proximal, H);
-        let taken = taken.linearized(&start).unwrap();
-        sticks += usize::from(taken.step().velocity[0] == 0.0);
-        let by: StateBy<f64, 2, 3> = taken.by_parameters().unwrap();
-        let systems = [
-            |by| Series { k: 4.0 + by, ..SERIES },
-            |by| Series { c: 3.0 + by, ..SERIES },
-            |by| Series { limit: 0.2 + by, ..SERIES },
-        ];
-        for (index, system) in systems.into_iter().enumerate() {
-            let end = |by: f64| system(by).by(Proximal, H).step(&start).unwrap().state;
-            let off = off(end, [by.q.column(index).into(), by.p.column(index).into()]);
-            assert!(off < 1e-8, "{trial}: {off:e} by parameter {index}");
-        }
-    }
-    assert!((5..55).contains(&sticks), "{sticks} of 60 stick");
 }
