@@ -222,16 +222,19 @@ impl System<'_> {
         if self.has_view() { Home::View } else { Home::System }
     }
 
-    /// Where a part stands: on the system wherever neither u nor t is needed.
+    /// Where a part stands: on the system wherever neither u nor t is needed. What stands beside L is of the
+    /// view where L is.
     pub fn home_of(&self, part: Part) -> Home {
         let is_timed = |part| self.takes_time(part);
-        let needs_view = match part {
-            Part::Lagrangian | Part::Events => is_timed(part),
-            Part::Rayleigh => is_timed(Part::Lagrangian) || is_timed(part),
-            Part::Outputs => is_timed(part) || self.takes(part).is_some_and(|takes| takes.u),
-            Part::Force | Part::TimeScale => self.has_view(),
-            Part::Constraints | Part::VelocityConstraints => Part::CONSTRAINTS.into_iter().any(is_timed),
-        };
+        let needs_view = is_timed(Part::Lagrangian)
+            || match part {
+                Part::Lagrangian | Part::Rayleigh | Part::Events => is_timed(part),
+                Part::Outputs => is_timed(part) || self.takes(part).is_some_and(|takes| takes.u),
+                Part::Force | Part::TimeScale => self.has_view(),
+                Part::Constraints | Part::VelocityConstraints => {
+                    Part::CONSTRAINTS.into_iter().any(is_timed)
+                }
+            };
         if needs_view { Home::View } else { Home::System }
     }
 }

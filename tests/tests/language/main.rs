@@ -35,6 +35,7 @@ mod structure;
 mod tables;
 mod three_engines;
 mod user_functions;
+mod who_takes_time;
 
 use dalembert::nalgebra::SVector;
 use dalembert::system::{Derivatives, Gradient};
