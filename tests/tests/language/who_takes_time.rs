@@ -1,4 +1,4 @@
-//! Any function of the block may take the time, or not, beside any other that does: the same motion.
+//! Any function of the block may take the time, or not, beside any other that does.
 
 use dalembert::nalgebra::vector;
 use dalembert::step::DiscreteParameters;
@@ -8,7 +8,7 @@ use dalembert::{Lagrangian, Midpoint, rayleigh_system};
 /// Of a system whose steps have derivatives by one parameter.
 fn is_stepped(_: &impl DiscreteParameters<Midpoint, 3, 1>) {}
 
-/// A system whose functions take the time where its name stands for them, and do not read it; its motion, by
+/// A system whose functions take the time where a name stands for it, and do not read it; what it shows by
 /// the view that they give it.
 macro_rules! system {
     (
