@@ -50,6 +50,9 @@ const SHORT: f64 = 1e-4;
 const LONGEST: f64 = 1e-3;
 const ATTEMPTS: u32 = 6;
 
+/// Roundings of A that are no change over such a step.
+const ROUNDINGS: f64 = 4096.0;
+
 /// A velocity that Newton's method changes by less than this share is that of the state.
 const VELOCITY: f64 = 1e-3;
 
@@ -94,15 +97,19 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
             let share = S::constant(0.5) / tau;
             let between = |x: &SVector<S, N>, y: &SVector<S, N>| (x - y) * share;
             let slope = |x: &SMatrix<S, N, N>, y: &SMatrix<S, N, N>| (x - y) * share;
-            let matrix = PhaseMatrix {
+            let mut matrix = PhaseMatrix {
                 q_by_q: slope(&a.q_by_q, &b.q_by_q),
-                q_by_p: slope(&a.q_by_p, &b.q_by_p),
+                q_by_p: beyond_rounding(slope(&a.q_by_p, &b.q_by_p), &self.matrix.q_by_p),
                 p_by_q: slope(&a.p_by_q, &b.p_by_q),
                 p_by_p: slope(&a.p_by_p, &b.p_by_p),
             };
-            let [fastest, impedance] = norm_and_ratio(&matrix);
+            let [mut fastest, impedance] = norm_and_ratio(&matrix);
             if !fastest.is_finite() {
                 return None;
+            }
+            if matrix.q_by_p.amax() == S::zero() && fastest * tau <= S::EPSILON * S::constant(ROUNDINGS) {
+                // All that moves is prescribed.
+                (matrix.q_by_q, matrix.p_by_p, fastest) = (nalgebra::zero(), nalgebra::zero(), S::zero());
             }
             // What turns faster than was thought is looked at more closely.
             if fastest * tau > S::constant(LONGEST) {
@@ -202,7 +209,8 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
     pub(super) fn turned(&self, error: &State<S, N>, scale: &Scale<S, N>) -> State<S, N> {
         let State { q, p } = times(&self.matrix, error);
         let rate = self.fastest.max(self.matrix.q_by_p.norm() / S::constant(scale.weight()));
-        State { q: q / rate, p: p / rate }
+        // Where all that moves is prescribed an error stays as it is.
+        if rate > S::zero() { State { q: q / rate, p: p / rate } } else { *error }
     }
 
     /// The fastest rate here and at `other`, and the root of the share of J that changes: over their product
@@ -299,6 +307,23 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
         let share = if slope > S::zero() && share.is_finite() { share } else { S::zero() };
         State { q: direction.q * share, p: direction.p * share }
     }
+}
+
+/// ∂q̇/∂p on constraints, 0 where the constraints leave no motion: what rounding makes of that would count as
+/// a mode of infinite impedance. Without constraints it is `free`.
+fn beyond_rounding<S: Scalar, const N: usize>(
+    mut on: SMatrix<S, N, N>,
+    free: &SMatrix<S, N, N>,
+) -> SMatrix<S, N, N> {
+    let least = S::EPSILON.sqrt() * S::constant(SLIGHTEST);
+    for i in 0..N {
+        for j in 0..N {
+            if on[(i, j)].abs() <= (free[(i, i)] * free[(j, j)]).abs().sqrt() * least {
+                on[(i, j)] = S::zero();
+            }
+        }
+    }
+    on
 }
 
 /// A quintic says nothing of a motion over so many radians.
