@@ -47,6 +47,7 @@ fn the_filter_of_a_random_walk_settles_at_the_golden_ratio() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn the_cart_swings_its_pole_up_and_holds_it() {
     use cart_pole::{PERIODS, Run, SWING};
     let (plan, _) = cart_pole::swing_up().unwrap();
@@ -189,6 +190,7 @@ fn the_crane_brings_its_load_to_rest() {
 /// With the integral alone the load goes on from one side of the angle to the other; with a dead zone it
 /// stands in it to the last bit.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn a_dead_zone_ends_the_hunting() {
     let [hunting, still] = [0.0, drive::DEAD_ZONE].map(|dead_zone| {
         let moments = drive::motion(drive::Controller::with(dead_zone)).unwrap();

@@ -105,7 +105,7 @@ fn what_slides_follows() -> Result<(), StepError> {
 #[test]
 fn random_systems_have_their_motion() -> Result<(), StepError> {
     let mut draws = Draws::new(0x6877_616e);
-    let (count, time) = (if cfg!(debug_assertions) { 20 } else { 1000 }, 5.0);
+    let (count, time) = (if cfg!(debug_assertions) { 12 } else { 1000 }, 5.0);
     let (mut events, mut slide, mut seen, mut controls) = (0, 0, 0, 0);
     let (mut off, mut sums) = ([0.0_f64; 2], [0.0_f64; 2]);
     for number in 0..count {

@@ -92,7 +92,7 @@ fn off(a: &[Vector3<f64>; 2], b: &[Vector3<f64>; 2]) -> f64 {
 fn steps_are_differentiated_where_coordinates_have_no_mass() {
     let mut draws = Draws::new(21);
     let (mut compared, mut coupled, mut refused) = (0, 0, 0);
-    let count = if cfg!(debug_assertions) { 60 } else { 2000 };
+    let count = if cfg!(debug_assertions) { 30 } else { 2000 };
     for number in 0..count {
         let nodes = Nodes::drawn(&mut draws);
         let mut start = State {
