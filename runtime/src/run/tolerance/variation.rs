@@ -50,9 +50,6 @@ const SHORT: f64 = 1e-4;
 const LONGEST: f64 = 1e-3;
 const ATTEMPTS: u32 = 6;
 
-/// Roundings of A that are no change over such a step.
-const ROUNDINGS: f64 = 4096.0;
-
 /// A velocity that Newton's method changes by less than this share is that of the state.
 const VELOCITY: f64 = 1e-3;
 
@@ -107,7 +104,7 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
             if !fastest.is_finite() {
                 return None;
             }
-            if matrix.q_by_p.amax() == S::zero() && fastest * tau <= S::EPSILON * S::constant(ROUNDINGS) {
+            if matrix.q_by_p.amax() == S::zero() && fastest * tau <= slightest() {
                 // All that moves is prescribed.
                 (matrix.q_by_q, matrix.p_by_p, fastest) = (nalgebra::zero(), nalgebra::zero(), S::zero());
             }
@@ -315,15 +312,19 @@ fn beyond_rounding<S: Scalar, const N: usize>(
     mut on: SMatrix<S, N, N>,
     free: &SMatrix<S, N, N>,
 ) -> SMatrix<S, N, N> {
-    let least = S::EPSILON.sqrt() * S::constant(SLIGHTEST);
     for i in 0..N {
         for j in 0..N {
-            if on[(i, j)].abs() <= (free[(i, i)] * free[(j, j)]).abs().sqrt() * least {
+            if on[(i, j)].abs() <= (free[(i, i)] * free[(j, j)]).abs().sqrt() * slightest::<S>() {
                 on[(i, j)] = S::zero();
             }
         }
     }
     on
+}
+
+/// The share of A, or of ∂q̇/∂p, that is no more than rounding.
+fn slightest<S: Scalar>() -> S {
+    S::EPSILON.sqrt() * S::EPSILON.sqrt().sqrt()
 }
 
 /// A quintic says nothing of a motion over so many radians.
