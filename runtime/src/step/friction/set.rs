@@ -9,6 +9,10 @@
 //! convex objective, so that they cannot cycle; from the sets that they find Newton's method gives s to
 //! rounding. The work of both is bounded.
 
+mod balls;
+mod continuation;
+mod newton;
+
 use nalgebra::{SMatrix, SVector};
 
 use super::element::{Element, elements};
@@ -16,25 +20,6 @@ use crate::numbers::{Factored, NewtonMatrix, Scalar};
 
 /// Rounds of sweeps, of which each has twice as many as the one before.
 const ROUNDS: u32 = 12;
-
-/// Newton iterations from the sets of a sweep, each of which may change them.
-const CORRECTIONS: u32 = 64;
-
-/// Iterations after which they change one element at a time, the first that is wrong: all at once may cycle,
-/// and one at a time cannot where elements have one component each (K. G. Murty, 1974).
-const AT_ONCE: u32 = 8;
-
-/// Iterations for the unknowns λ of several balls.
-const OF_LENGTHS: u32 = 16;
-
-/// Iterations for the one unknown λ of a ball.
-const OF_BALL: u32 = 32;
-
-/// The least part of ρ that is left from one problem to the next.
-const CONTINUATION: f64 = 0.25;
-
-/// The most problems on the way to ρ = 0.
-const PROBLEMS: u32 = 256;
 
 /// Roundings of the terms of u below which it is 0.
 const ROUNDINGS: f64 = 16.0;
@@ -95,29 +80,6 @@ impl<S: Scalar, const M: usize> Elements<'_, S, M> {
             }
         }
         self.by_continuation()
-    }
-
-    /// From elements that give way to each force by itself, ρ s beside A s, to none that do: at first each
-    /// stands alone, and the forces change little from ρ to ρ. Where they change too much, ρ falls by less.
-    fn by_continuation(&self) -> Option<Held<S, M>> {
-        let most = self.diagonal().amax();
-        let (mut forces, mut rho, mut factor) = (nalgebra::zero(), most, S::constant(CONTINUATION));
-        for _ in 0..PROBLEMS {
-            if rho <= most * S::EPSILON {
-                break;
-            }
-            let next = rho * factor;
-            let near = Elements { response: with_diagonal(&self.response, |_| next), ..*self };
-            let by_lengths = || near.corrected(near.by_lengths(&forces)?);
-            match near.corrected(forces).or_else(by_lengths) {
-                Some(held) => {
-                    (forces, rho) = (held.forces, next);
-                    factor = at_least(factor * factor, S::constant(CONTINUATION));
-                }
-                None => factor = factor.sqrt(),
-            }
-        }
-        self.corrected(forces)
     }
 
     /// A correction of the forces that hold, which takes away `slip` from what sticks. Of what their impulses
@@ -197,40 +159,6 @@ impl<S: Scalar, const M: usize> Elements<'_, S, M> {
         }
     }
 
-    /// A on the components of an element, and those of the unit matrix elsewhere.
-    fn own_response(&self, element: Element) -> SMatrix<S, M, M> {
-        let mut matrix: SMatrix<S, M, M> = SMatrix::identity();
-        let columns = element.of_mut(&mut matrix.data.0).zip(element.of(&self.response.data.0));
-        columns
-            .for_each(|(own, column)| element.of_mut(own).zip(element.of(column)).for_each(|(a, b)| *a = *b));
-        matrix
-    }
-
-    /// (A + λ) s = r on the components of a ball, with λ = 0 if |s| ≤ 1 and |s| = 1 otherwise.
-    #[inline(never)]
-    fn solve_ball(&self, forces: &mut SVector<S, M>, element: Element) {
-        let own = element.part(forces);
-        let right = element.part(&self.slip(&(*forces - own)));
-        let matrix = self.own_response(element);
-        let (mut found, mut lambda): (SVector<S, M>, S) = (nalgebra::zero(), S::zero());
-        for _ in 0..OF_BALL {
-            // Without strength no force has an effect.
-            let Some(factored) = NewtonMatrix::factored(&with_diagonal(&matrix, |_| lambda)) else { break };
-            let s = factored.solve(&right);
-            let length = element.length(&s);
-            let is_inside = length <= S::one() && lambda == S::zero();
-            found = if is_inside { s } else { s / length };
-            // 1/|s| is nearly linear in λ: Newton's method is soon at the last place.
-            let slope = element.dot(&s, &factored.solve(&s));
-            let next = at_least(lambda + length * length * (length - S::one()) / slope, S::zero());
-            if is_inside || !next.is_finite() || next == lambda {
-                break;
-            }
-            lambda = next;
-        }
-        *forces += found - own;
-    }
-
     /// The forces with what sticks, if they solve the problem to rounding.
     fn verified(&self, forces: &SVector<S, M>) -> Option<Held<S, M>> {
         let (slip, terms) = (self.slip(forces), self.terms(forces));
@@ -255,169 +183,6 @@ impl<S: Scalar, const M: usize> Elements<'_, S, M> {
             element.of_mut(&mut sticks).for_each(|stick| *stick = is_at_rest && !is_slack);
         }
         Some(Held { forces: *forces, sticks })
-    }
-
-    /// The solution by Newton's method on the sets of `forces`, which follow it: an element that would have
-    /// to be held by more than its limit slides, one that would slide against its force sticks.
-    #[inline(never)]
-    fn corrected(&self, mut forces: SVector<S, M>) -> Option<Held<S, M>> {
-        let mut sticks = [false; M];
-        let inside = S::one() - S::EPSILON * S::constant(ROUNDINGS);
-        let mut share = S::EPSILON * S::constant(SHARE);
-        for element in self.elements() {
-            let is_inside = element.dot(&forces, &forces) < inside;
-            element.of_mut(&mut sticks).for_each(|stick| *stick = is_inside);
-        }
-        for iteration in 0..CORRECTIONS {
-            let (matrix, residual) = self.linearized(&mut forces, &sticks, share);
-            let Some(factored) = NewtonMatrix::factored(&matrix) else {
-                // What is left is corrected again: a larger share makes that slower, and no root another.
-                share *= S::constant(SHARE);
-                if share * share > S::EPSILON {
-                    return None;
-                }
-                continue;
-            };
-            forces += factored.solve(&residual);
-            let slides = |element: &Element, sticks: &[bool; M]| element.head(sticks) == Some(false);
-            for element in self.elements().filter(|element| slides(element, &sticks)) {
-                let length = element.length(&forces);
-                if length > S::zero() {
-                    element.divide(&mut forces, length);
-                }
-            }
-            if let Some(held) = self.verified(&forces) {
-                return Some(held);
-            }
-            let slip = self.slip(&forces);
-            for element in self.elements() {
-                let (length, along) = (element.length(&forces), element.dot(&forces, &slip));
-                if !slides(&element, &sticks) && length > S::one() {
-                    element.divide(&mut forces, length);
-                    element.of_mut(&mut sticks).for_each(|stick| *stick = false);
-                } else if slides(&element, &sticks) && along < S::zero() {
-                    element.of_mut(&mut sticks).for_each(|stick| *stick = true);
-                } else {
-                    continue;
-                }
-                if iteration >= AT_ONCE {
-                    break;
-                }
-            }
-            // At their limits they may hold as well.
-            if let Some(held) = self.verified(&forces) {
-                return Some(held);
-            }
-        }
-        None
-    }
-
-    /// Minus the derivative by s of the equations on these sets, and the equations: u = 0 of what sticks, and
-    /// of a ball that slides u − (u·s)s − ½|u|(|s|² − 1)s = 0. Forces without effect, or at a limit of one
-    /// component, are written.
-    fn linearized(
-        &self,
-        forces: &mut SVector<S, M>,
-        sticks: &[bool; M],
-        share: S,
-    ) -> (SMatrix<S, M, M>, SVector<S, M>) {
-        let slip = self.slip(forces);
-        // Row by row.
-        let mut rows: SMatrix<S, M, M> = SMatrix::identity();
-        let mut residual: SVector<S, M> = nalgebra::zero();
-        let transposed = self.response.transpose();
-        for element in self.elements() {
-            let of_rows = element.of_mut(&mut rows.data.0).zip(element.of(&transposed.data.0));
-            let of_rows = of_rows.zip(element.of_mut(residual.as_mut_slice())).enumerate();
-            if self.has_no_effect(element) {
-                element.of_mut(forces.as_mut_slice()).for_each(|force| *force = S::zero());
-            } else if element.head(sticks) == Some(true) {
-                for (k, ((row, response), residual)) in of_rows {
-                    *row = *response;
-                    if let Some(own) = row.get_mut(element.first + k) {
-                        *own += *own * share;
-                    }
-                    *residual = slip.get(element.first + k).copied().unwrap_or(S::zero());
-                }
-            } else if element.size == 1 {
-                let is_back = element.head(forces.as_slice()).is_some_and(|force| force < S::zero());
-                element.write_head(forces.as_mut_slice(), if is_back { -S::one() } else { S::one() });
-            } else {
-                let (along, scale) = (element.dot(forces, &slip), element.length(&slip));
-                let excess = S::constant(0.5) * scale * (element.dot(forces, forces) - S::one());
-                // s·A, and by what s moves u·s and the excess.
-                let mut by_length = -(transposed * element.part(forces));
-                let own = element.of(slip.as_slice()).zip(element.of(forces.as_slice()));
-                element
-                    .of_mut(by_length.as_mut_slice())
-                    .zip(own)
-                    .for_each(|(entry, (slip, force))| *entry += *slip + scale * *force);
-                for (k, ((row, response), residual)) in of_rows {
-                    let force = forces.get(element.first + k).copied().unwrap_or(S::zero());
-                    let entries = row.iter_mut().zip(response).zip(by_length.as_slice());
-                    entries
-                        .for_each(|((entry, response), by_length)| *entry = *response + force * *by_length);
-                    if let Some(own) = row.get_mut(element.first + k) {
-                        *own += along + excess;
-                    }
-                    let slip = slip.get(element.first + k).copied().unwrap_or(S::zero());
-                    *residual = slip - (along + excess) * force;
-                }
-            }
-        }
-        (rows.transpose(), residual)
-    }
-
-    /// The forces near the solution by Newton's method for λ from that of `forces`: (A + λ) s = d, where sₖ
-    /// of elements that slide is to have the length 1. λ of no element falls below 0, where it sticks.
-    #[inline(never)]
-    fn by_lengths(&self, forces: &SVector<S, M>) -> Option<SVector<S, M>> {
-        let (slip, diagonal) = (self.slip(forces), self.diagonal());
-        let mut limited = *forces;
-        // Of each element at its first component.
-        let mut lambda: SVector<S, M> = nalgebra::zero();
-        for element in self.elements() {
-            element.write_head(lambda.as_mut_slice(), at_least(element.dot(forces, &slip), S::zero()));
-        }
-        for _ in 0..OF_LENGTHS {
-            let mut beside: SVector<S, M> = nalgebra::zero();
-            for element in self.elements() {
-                let shift = element.head(lambda.as_slice()).unwrap_or(S::zero());
-                let own = element.of_mut(beside.as_mut_slice()).zip(element.of(diagonal.as_slice()));
-                own.for_each(|(beside, own)| {
-                    // Without strength no force has an effect.
-                    let least = *own * (S::EPSILON * S::constant(SHARE));
-                    *beside = if *own > S::zero() { shift + least } else { S::one() };
-                });
-            }
-            let shifted = with_diagonal(&self.response, |i| beside.get(i).copied().unwrap_or(S::zero()));
-            let factored = NewtonMatrix::factored(&shifted)?;
-            let forces = factored.solve(&self.free);
-            let slides = |element: &Element| {
-                element.head(lambda.as_slice()) > Some(S::zero()) || element.length(&forces) > S::one()
-            };
-            limited = forces;
-            for element in self.elements().filter(slides) {
-                element.divide(&mut limited, element.length(&forces));
-            }
-            // d(1/|sₖ|)/dλₗ = sₖᵀ (A + λ)⁻¹ₖₗ sₗ/|sₖ|³: 1/|s| is nearly linear in λ.
-            let (mut slopes, mut right): (SMatrix<S, M, M>, SVector<S, M>) =
-                (SMatrix::identity(), nalgebra::zero());
-            for other in self.elements().filter(slides) {
-                other.write_head(right.as_mut_slice(), S::one() - S::one() / other.length(&forces));
-                let answer = factored.solve(&other.part(&forces));
-                for element in self.elements().filter(slides) {
-                    let length = element.length(&forces);
-                    let slope = element.dot(&forces, &answer) / (length * length * length);
-                    if let Some(column) = slopes.data.0.get_mut(other.first) {
-                        element.write_head(column, slope);
-                    }
-                }
-            }
-            lambda += NewtonMatrix::factored(&slopes)?.solve(&right);
-            lambda.as_mut_slice().iter_mut().for_each(|lambda| *lambda = at_least(*lambda, S::zero()));
-        }
-        Some(limited)
     }
 }
 
