@@ -231,9 +231,7 @@ impl System<'_> {
                 Part::Lagrangian | Part::Rayleigh | Part::Events => is_timed(part),
                 Part::Outputs => is_timed(part) || self.takes(part).is_some_and(|takes| takes.u),
                 Part::Force | Part::TimeScale => self.has_view(),
-                Part::Constraints | Part::VelocityConstraints => {
-                    Part::CONSTRAINTS.into_iter().any(is_timed)
-                }
+                Part::Constraints | Part::VelocityConstraints => Part::CONSTRAINTS.into_iter().any(is_timed),
             };
         if needs_view { Home::View } else { Home::System }
     }

@@ -30,7 +30,8 @@ impl Nodes {
 
     fn rayleigh(&self, v: [f64; 3]) -> f64 {
         let slip = v[0] - v[1];
-        0.5 * self.c[0] * v[1] * v[1] + 0.5 * self.c[1] * slip * slip
+        0.5 * self.c[0] * v[1] * v[1]
+            + 0.5 * self.c[1] * slip * slip
             + self.limit[0] * v[1].abs()
             + self.limit[1] * slip.abs()
             + self.limit[2] * v[2].abs()
@@ -116,7 +117,10 @@ fn steps_are_differentiated_where_coordinates_have_no_mass() {
         let mut check = |found: Option<[Vector3<f64>; 2]>, expected: [SVector<f64, 3>; 2]| {
             if let Some(found) = found {
                 compared += 1;
-                assert!(off(&found, &expected) < 1e-7, "{number}: {found:?}, {expected:?} {nodes:?} {start:?}");
+                assert!(
+                    off(&found, &expected) < 1e-7,
+                    "{number}: {found:?}, {expected:?} {nodes:?} {start:?}"
+                );
             }
         };
         let a = taken.by_state().unwrap();
