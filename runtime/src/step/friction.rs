@@ -26,6 +26,7 @@ mod linearized_balance;
 mod rates;
 mod root;
 mod set;
+mod sliding;
 mod slipping;
 mod state;
 mod sticking;

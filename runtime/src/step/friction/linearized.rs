@@ -16,9 +16,10 @@ use nalgebra::{SMatrix, SVector};
 
 use super::balanced::at_end;
 use super::end::{Middle, balance, by_ends};
-use super::equation::{at_middle, direction_of};
+use super::equation::at_middle;
 use super::line::{Line, leave};
 use super::linearized_balance::{LinearizedBalance, MovedBalance};
+use super::sliding::direction_of;
 use super::state::State;
 use crate::numbers::Scalar;
 use crate::step::massless::Massless;

@@ -8,8 +8,8 @@ use nalgebra::{SMatrix, SVector};
 
 use super::balanced::{Balanced, OF_FORCES};
 use super::end::forces;
-use super::equation::direction_of;
 use super::line::Line;
+use super::sliding::direction_of;
 use super::state::State;
 use crate::numbers::Scalar;
 use crate::step::StepError;

@@ -3,8 +3,8 @@
 
 use nalgebra::SVector;
 
-use super::equation::Sliding;
 use super::set::Held;
+use super::sliding::Sliding;
 use crate::numbers::{Factored, Scalar};
 use crate::step::StepError;
 use crate::system::Slips;
