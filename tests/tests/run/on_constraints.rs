@@ -1,8 +1,9 @@
 //! Runs on constraints: a tolerance, events, states between steps; each beside a motion in minimal
 //! coordinates.
 
-use dalembert::nalgebra::Vector2;
-use dalembert::{Composition, Discretise, Gauss, Midpoint, State, StepError};
+use dalembert::nalgebra::{Vector2, Vector3, vector};
+use dalembert::{Composition, Discretise, Gauss, Midpoint, State, StepError, rayleigh_system};
+use dalembert_tests::draws::Draws;
 use dalembert_tests::systems::{Hoist, HoistByAngle, rope};
 
 /// At rest beside the rope, at an angle of .8.
@@ -62,6 +63,55 @@ fn events_and_states_between_steps_are_on_the_constraints() -> Result<(), StepEr
         let (time, between) = (to - 0.017, dense.state_at(to - 0.017).unwrap());
         assert!((between.q.norm() - rope(time)[0]).abs() < 1e-14, "{time}");
         assert!((angle(&between.q) - exact(time)?).abs() < 1e-11, "{time}");
+    }
+    Ok(())
+}
+
+/// A slider, at the end of a rod of length `rod` on a crank of length 1 whose angle is given.
+struct SliderCrank {
+    rod: f64,
+    rate: f64,
+}
+
+#[rayleigh_system]
+impl SliderCrank {
+    fn lagrangian(&self, q: [f64; 3], v: [f64; 3]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1] + 0.3 * v[2] * v[2]) - q[1]
+    }
+
+    fn rayleigh(&self, v: [f64; 3]) -> f64 {
+        0.1 * v[2] * v[2]
+    }
+
+    fn constraints(&self, q: [f64; 3], t: f64) -> [f64; 3] {
+        [
+            q[0] - self.rate * t - 0.1 * (3.0 * t).sin(),
+            q[0].sin() - self.rod * q[1].sin(),
+            q[0].cos() + self.rod * q[1].cos() - q[2],
+        ]
+    }
+}
+
+impl SliderCrank {
+    fn place(&self, t: f64) -> Vector3<f64> {
+        let crank = self.rate * t + 0.1 * (3.0 * t).sin();
+        let rod = (crank.sin() / self.rod).asin();
+        vector![crank, rod, crank.cos() + self.rod * rod.cos()]
+    }
+}
+
+/// Where all that moves is prescribed, as for the torque that a machine needs, no error is too small.
+#[test]
+fn a_motion_that_is_prescribed_keeps_any_error() -> Result<(), Box<dyn core::error::Error>> {
+    let mut draws = Draws::new(3);
+    for _ in 0..if cfg!(debug_assertions) { 4 } else { 100 } {
+        let system = SliderCrank { rod: draws.between(1.5, 3.0), rate: draws.between(0.5, 3.0) };
+        let view = system.at_time(0.0);
+        let start = State::nearest(&view, system.place(0.0), Vector3::zeros())?;
+        for tolerance in [1e-3, 1e-6, 1e-9] {
+            let end = view.to_error(tolerance).until(3.0).end(&start)?.state;
+            assert!((end.q - system.place(3.0)).amax() < 1e-13, "{tolerance:e}: {end:?}");
+        }
     }
     Ok(())
 }
