@@ -31,7 +31,8 @@ pub fn check(system: &System<'_>, report: &mut Report) {
 pub fn check_derived(system: &System<'_>, derived: &Derived, report: &mut Report) {
     let kinks = &derived.kinks;
     let Some(word) = &system.rules.proximal else {
-        for &at in &kinks.written {
+        let forms = kinks.faults.iter().filter(|(fault, _)| *fault == Fault::NotSquares).map(|(_, at)| at);
+        for &at in kinks.written.iter().chain(forms) {
             report.at_span(at, Mistake::Kink { fault: UNSERVED });
         }
         return;
@@ -41,8 +42,8 @@ pub fn check_derived(system: &System<'_>, derived: &Derived, report: &mut Report
             report.at(other, Mistake::KinkByOther { rule: other.to_string() });
         }
     } else if kinks.faults.is_empty() {
-        let lacks =
-            "holds by kinks of R such as `v[0].abs()`, and this R has none; use `midpoint`, which it is then";
+        let lacks = "holds by kinks of R such as `v[0].abs()`, and none is seen in this R; without one it is `midpoint`: \
+                     use that";
         report.at(word, Mistake::Kinks { lacks });
     }
     for &(fault, at) in &kinks.faults {
@@ -56,6 +57,10 @@ pub fn check_derived(system: &System<'_>, derived: &Derived, report: &mut Report
             }
             Fault::LengthNotProportional => {
                 "a length of `v` stands in another function: R may be proportional to a length, or a function of |v|"
+            }
+            Fault::NotSquares => {
+                "a root of a quadratic form of `v` has a kink at rest: write the form as a sum of squares of what \
+                 is linear in `v`, as a·v₀² + b·v₁²"
             }
         };
         report.at_span(at, Mistake::Kink { fault });

@@ -45,9 +45,9 @@ use crate::system::{Driven, Parameters, SmoothRayleigh};
 /// # Ok::<(), dalembert::StepError>(())
 /// ```
 ///
-/// **What is a kink.** `abs`, `max`, `min`, `hypot` and `sqrt` of a sum of squares, in R, of what is linear
-/// in v; in front of it a factor of fields, q and the time. |v|³ is none, since its force has no jump. Where
-/// |u| stands in another function, as in μ|v| − A e^(−|v|/b) for friction that falls with the velocity, Fₖ is
+/// **What is a kink.** `abs`, `max`, `min`, `hypot` and `sqrt` of a sum of squares with positive factors, in R,
+/// of what is linear in v; v times its sign, and `if v > 0.0` between two multiples of v; in front of it a
+/// factor of fields, q and the time. |v|³ and v²|v| are none, since their force has no jump. Where |u| stands in another function, as in μ|v| − A e^(−|v|/b) for friction that falls with the velocity, Fₖ is
 /// the force at rest, and the rest of R counts as R_s.
 ///
 /// **Derivation.** −∂R_k/∂v is a set where a slip u is 0: any force of size at most Fₖ along ∂u/∂v. Half of

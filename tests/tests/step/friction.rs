@@ -8,6 +8,7 @@ mod sliders;
 mod unturned;
 mod verdicts;
 mod without_mass;
+mod written;
 
 use dalembert::nalgebra::{Vector2, vector};
 use dalembert::step::Step;

@@ -121,7 +121,7 @@ impl Deriving<'_> {
     }
 
     /// Whether an expression is 0 by structure where v is.
-    fn vanishes_at_rest(&self, root: Node) -> bool {
+    pub(super) fn vanishes_at_rest(&self, root: Node) -> bool {
         let mut vanishes = BTreeMap::new();
         for node in self.graph.reachable([root]) {
             let is_zero = |argument: Node| vanishes.get(&argument).copied().unwrap_or_default();

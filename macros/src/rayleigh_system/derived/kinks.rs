@@ -7,10 +7,14 @@
 //! `abs`, `hypot` and `sqrt` of a sum of squares are lengths; max(a, b) = ½(a + b) + ½|a − b|, and min
 //! likewise. A length whose share of R vanishes with it, as in |v|³ and v²|v|, is no kink.
 
+mod candidates;
+mod squares;
+
 use std::collections::HashMap;
 
-use super::super::graph::{Comparison, Function, PairFunction, Predicate};
+use super::super::graph::Function;
 use super::*;
+use candidates::Extremum;
 
 /// The kinks of R.
 #[derive(Default)]
@@ -49,28 +53,14 @@ pub enum Fault {
     NotApart,
     /// A length with a share of R that is not proportional to it.
     LengthNotProportional,
+    /// The root of a quadratic form that is not written as a sum of squares.
+    NotSquares,
 }
 
 /// Fₖ and uₖ.
 struct Element {
     limit: Node,
     slip: Vec<Node>,
-}
-
-/// A node of R that has a kink where this length is 0, and what it is with `length` in place of that.
-struct Candidate {
-    node: Node,
-    slip: Vec<Node>,
-    kind: Extremum,
-}
-
-/// The part that a length has of its node.
-#[derive(Clone, Copy)]
-enum Extremum {
-    /// All of it.
-    Length,
-    /// ½(a + b) + ½|a − b|, or with a minus.
-    Of(Node, Node, bool),
 }
 
 impl Deriving<'_> {
@@ -98,38 +88,51 @@ impl Deriving<'_> {
         for (candidate, &length) in candidates.iter().zip(&lengths) {
             let Some(&share) = by_length.get(&length) else { continue };
             let limit = self.graph.replaced(share, at_rest.clone());
-            let without_slip = candidate.slip.iter().map(|&slip| (slip, zero)).collect();
+            let mut without_slip: HashMap<Node, Node> =
+                candidate.slip.iter().map(|&slip| (slip, zero)).collect();
+            if let [slip] = candidate.slip[..]
+                && let Some(velocity) = self.stands_with(slip)
+            {
+                without_slip.insert(velocity, zero);
+            }
             let where_it_holds = self.graph.replaced(limit, without_slip);
             if self.graph.constant_value(where_it_holds) == Some(0.0) {
                 harmless.insert(length, candidate.node);
                 continue;
             }
-            shares.push((candidate, length, share, limit));
+            // Beside the kink itself the share may hold v where that changes no slope at the kink, as in v²|v|.
+            let limit = if candidate.slip.len() == 1 && !self.reads_velocity(where_it_holds) {
+                where_it_holds
+            } else {
+                limit
+            };
+            let is_own = limit == share;
+            shares.push((candidate, length, limit, is_own));
         }
-        let mut rest = at_rest;
+        kinks.is_proportional = shares.iter().all(|&(.., is_own)| is_own);
+        // Lengths with a limit of their own leave R; of others |u| stays as it stands, less its kink.
+        let mut rest: HashMap<Node, Node> = lengths.iter().map(|&length| (length, zero)).collect();
         rest.extend(harmless.iter().map(|(&length, &node)| (length, node)));
-        let mut smooth = self.graph.replaced(with_lengths, rest);
-        let own: Vec<bool> = shares
-            .iter()
-            .map(|&(.., share, _)| !lengths.iter().any(|&length| self.reads(share, length)))
-            .collect();
-        let is_affine = own.iter().all(|&is_own| is_own);
-        kinks.is_proportional = is_affine;
-        if !is_affine {
-            // R without the lengths' own shares, |u| as it stands.
-            smooth = root;
-            for &(candidate, .., limit) in &shares {
-                let node = match candidate.kind {
-                    Extremum::Length => candidate.node,
-                    Extremum::Of(..) => self.graph.function(Function::Abs, candidate.slip[0]),
+        let mut kinked = Vec::new();
+        for &(candidate, length, limit, is_own) in &shares {
+            if !is_own {
+                let node = match candidate.slip[..] {
+                    [slip] => self.graph.function(Function::Abs, slip),
+                    _ => candidate.node,
                 };
-                let term = self.graph.times(limit, node);
-                smooth = self.graph.minus(smooth, term);
+                rest.insert(length, node);
+                kinked.push(self.graph.times(limit, node));
             }
         }
-        for ((candidate, .., limit), is_own) in shares.into_iter().zip(own) {
+        let mut smooth = self.graph.replaced(with_lengths, rest);
+        for term in kinked {
+            smooth = self.graph.minus(smooth, term);
+        }
+        for (candidate, _, limit, is_own) in shares {
+            let is_form = matches!(candidate.kind, Extremum::Form);
             let faults = [
-                (candidate.slip.len() > 1 && !is_own, Fault::LengthNotProportional),
+                (is_form, Fault::NotSquares),
+                (!is_form && candidate.slip.len() > 1 && !is_own, Fault::LengthNotProportional),
                 (self.reads_velocity(limit), Fault::NotApart),
                 (!self.is_linear_in_velocity(&candidate.slip), Fault::NotLinear),
             ];
@@ -225,93 +228,6 @@ impl Deriving<'_> {
         self.made(Of::Slips, self.system.home(), &outputs)
     }
 
-    /// The nodes of R that have a kink of their own in v.
-    fn candidates(&mut self, root: Node) -> Vec<Candidate> {
-        let mut found: Vec<Candidate> = Vec::new();
-        for node in self.graph.reachable([root]) {
-            let operation = self.graph.operation(node);
-            let has_kink = matches!(
-                operation,
-                Operation::Function(Function::Abs | Function::Sqrt, _)
-                    | Operation::Pair(PairFunction::Hypot, ..)
-                    | Operation::Select(..)
-            );
-            // What is below is looked at for these alone.
-            if !has_kink || !self.reads_velocity(node) {
-                continue;
-            }
-            let candidate = match operation {
-                Operation::Function(Function::Abs, x) => Some((vec![x], Extremum::Length)),
-                Operation::Pair(PairFunction::Hypot, a, b) => {
-                    self.sides(a, b).map(|sides| (sides, Extremum::Length))
-                }
-                Operation::Function(Function::Sqrt, x) => {
-                    self.squares(x).map(|sides| (sides, Extremum::Length))
-                }
-                Operation::Select(condition, b, a) => self
-                    .extremum(condition, a, b)
-                    .map(|is_max| (vec![self.graph.minus(b, a)], Extremum::Of(a, b, is_max))),
-                _ => None,
-            };
-            found.extend(candidate.map(|(slip, kind)| Candidate { node, slip, kind }));
-        }
-        found
-    }
-
-    /// Both sides of a triangle, with those of triangles within; nothing where one has no v in it.
-    fn sides(&self, a: Node, b: Node) -> Option<Vec<Node>> {
-        let mut sides = Vec::new();
-        for side in [a, b] {
-            match self.graph.operation(side) {
-                Operation::Pair(PairFunction::Hypot, a, b) => sides.extend(self.sides(a, b)?),
-                _ if self.reads_velocity(side) => sides.push(side),
-                _ if self.graph.constant_value(side) == Some(0.0) => {}
-                _ => return None,
-            }
-        }
-        Some(sides)
-    }
-
-    /// The numbers whose squares are added; nothing where a term is no square, or has no v in it.
-    fn squares(&self, sum: Node) -> Option<Vec<Node>> {
-        let (mut open, mut found) = (vec![sum], Vec::new());
-        while let Some(node) = open.pop() {
-            match self.graph.operation(node) {
-                Operation::Add(a, b) => open.extend([b, a]),
-                Operation::Multiply(a, b) if a == b && self.reads_velocity(a) => found.push(a),
-                Operation::Power(a, 2) if self.reads_velocity(a) => found.push(a),
-                Operation::MultiplyAdd(a, b, c) if a == b && self.reads_velocity(a) => {
-                    found.push(a);
-                    open.push(c);
-                }
-                _ if self.graph.constant_value(node) == Some(0.0) => {}
-                _ => return None,
-            }
-        }
-        Some(found)
-    }
-
-    /// Whether it is max(a, b), or min(a, b), as these are lowered.
-    fn extremum(&self, condition: Node, a: Node, b: Node) -> Option<bool> {
-        let Operation::Or(wins, missing) = self.graph.operation(condition) else { return None };
-        if self.graph.operation(missing) != Operation::Is(Predicate::Nan, a) {
-            return None;
-        }
-        match self.graph.operation(wins) {
-            Operation::Compare(Comparison::Greater, x, y) if (x, y) == (b, a) => Some(true),
-            Operation::Compare(Comparison::Less, x, y) if (x, y) == (b, a) => Some(false),
-            _ => None,
-        }
-    }
-
-    /// The candidate's node with a length in place of its own.
-    fn standing_for(&mut self, candidate: &Candidate, length: Node) -> Node {
-        let Extremum::Of(a, b, is_max) = candidate.kind else { return length };
-        let sum = self.graph.plus(a, b);
-        let sum = if is_max { self.graph.plus(sum, length) } else { self.graph.minus(sum, length) };
-        self.graph.scaled(0.5, sum)
-    }
-
     fn is_linear_in_velocity(&mut self, slips: &[Node]) -> bool {
         let rows = self.rows(slips);
         rows.iter().all(|row| {
@@ -322,7 +238,7 @@ impl Deriving<'_> {
         })
     }
 
-    fn reads(&self, root: Node, node: Node) -> bool {
+    pub(super) fn reads(&self, root: Node, node: Node) -> bool {
         self.graph.reachable([root]).contains(&node)
     }
 
