@@ -136,7 +136,7 @@ impl Deriving<'_> {
                 (self.reads_velocity(limit), Fault::NotApart),
                 (!self.is_linear_in_velocity(&candidate.slip), Fault::NotLinear),
             ];
-            let at = self.methods.get(&candidate.node).copied().unwrap_or_else(|| self.system.name.span());
+            let at = self.written_at(candidate.node);
             let before = kinks.faults.len();
             kinks.faults.extend(faults.into_iter().filter(|(holds, _)| *holds).map(|(_, fault)| (fault, at)));
             if kinks.faults.len() == before {
@@ -150,6 +150,15 @@ impl Deriving<'_> {
                 |&node| !self.reads_kind(node, |operation| matches!(operation, Operation::Coordinate(_))),
             );
         kinks
+    }
+
+    /// The method that writes a node, or one in it; otherwise the name of R.
+    fn written_at(&self, node: Node) -> Span {
+        let own = [node].into_iter().chain(self.graph.operation(node).arguments());
+        let method = own.into_iter().find_map(|node| self.methods.get(&node).copied());
+        let mut functions = self.system.source.functions();
+        let name = || Some(functions.find(|of| of.sig.ident == Part::Rayleigh.name())?.sig.ident.span());
+        method.or_else(name).unwrap_or_else(|| self.system.name.span())
     }
 
     /// The functions of `SmoothRayleigh` and `DryFriction`.
