@@ -59,6 +59,18 @@ impl Nested {
     }
 }
 
+struct Form;
+
+#[rayleigh_system(rule = proximal)]
+impl Form {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - 0.5 * q[0] * q[1]
+    }
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        (v[0] * v[0] + v[1] * v[1] + v[0] * v[1]).sqrt()
+    }
+}
+
 struct Held;
 
 #[rayleigh_system(rule = proximal)]

@@ -36,6 +36,33 @@ impl BesideTheRule {
     }
 }
 
+struct Written;
+
+#[rayleigh_system]
+impl Written {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - q[1]
+    }
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        (4.0 * v[0] * v[0] + 0.5 * v[1] * v[1]).sqrt()
+            + (v[0] * v[0] + v[0] * v[1] + v[1] * v[1]).powf(0.5)
+            + v[0] * v[0].signum()
+            + v[1].copysign(1.0)
+    }
+}
+
+struct Branches;
+
+#[rayleigh_system]
+impl Branches {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * v[0] * v[0] - q[0]
+    }
+    fn rayleigh(&self, v: [f64; 1]) -> f64 {
+        if v[0] > 0.0 { 0.2 * v[0] } else { -0.1 * v[0] }
+    }
+}
+
 struct Held;
 
 #[rayleigh_system]
@@ -74,6 +101,12 @@ sound! {
     };
     ln_cosh_at_once: |q, v, c| { let x = (v[0] / c).abs(); c * (x + (-2.0 * x).exp().ln_1p()) };
     of_coordinates: |q, v, c| c * q[0].abs() * v[0] * v[0] + q[0].hypot(q[1]) * v[1] * v[1];
+    by_side: |q, v, c| if v[0] > 0.0 { c * v[0] * v[0] } else { 2.0 * c * v[0] * v[0] };
+    times_its_sign: |q, v, c| c * v[0] * v[0] * v[0] * v[0].signum();
+    form_cubed: |q, v, c| (v[0] * v[0] + c * v[0] * v[1] + v[1] * v[1]).powf(1.5);
+    form_beside: |q, v, c| (v[0] * v[0] + c * v[0] * v[1] + v[1] * v[1] + c * c).sqrt();
+    of_squares: |q, v, c| (c * v[0].powi(4) + v[1].powi(4)).sqrt();
+    turning: |q, v, c| if q[0] > 0.0 { c * v[0] } else { -c * v[0] };
     huber: |q, v, c| { let x = v[0].abs(); c * if x < 1.0 { 0.5 * x * x } else { x - 0.5 } };
     // Of no kink that another rule would take.
     not_linear: |q, v, c| c * (v[0] * v[0] - 1.0).abs();
