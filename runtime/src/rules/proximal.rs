@@ -45,10 +45,11 @@ use crate::system::{Driven, Parameters, SmoothRayleigh};
 /// # Ok::<(), dalembert::StepError>(())
 /// ```
 ///
-/// **What is a kink.** `abs`, `max`, `min`, `hypot` and `sqrt` of a sum of squares with positive factors, in R,
-/// of what is linear in v; v times its sign, and `if v > 0.0` between two multiples of v; in front of it a
-/// factor of fields, q and the time. |v|³ and v²|v| are none, since their force has no jump. Where |u| stands in another function, as in μ|v| − A e^(−|v|/b) for friction that falls with the velocity, Fₖ is
-/// the force at rest, and the rest of R counts as R_s.
+/// **What is a kink.** `abs`, `max`, `min`, `hypot` and `sqrt` of a sum of squares with positive factors, in
+/// R, of what is linear in v; v times its sign, and `if v > 0.0` between two multiples of v; in front of it a
+/// factor of fields, q and the time. |v|³ and v²|v| are none, since their force has no jump. Where |u| stands
+/// in another function, as in μ|v| − A e^(−|v|/b) for friction that falls with the velocity, Fₖ is the force
+/// at rest, and the rest of R counts as R_s.
 ///
 /// **Derivation.** −∂R_k/∂v is a set where a slip u is 0: any force of size at most Fₖ along ∂u/∂v. Half of
 /// its impulse goes to either momentum, as of every force by the midpoint rule. The first line is the least

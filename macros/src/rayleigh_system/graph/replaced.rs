@@ -58,6 +58,7 @@ impl Graph {
             Operation::Select(condition, a, b) => match self.decided(condition) {
                 Some(true) => a,
                 Some(false) => b,
+                None if is(a, 0.0) && is(b, 0.0) => b,
                 // A factor where it is 0, and otherwise 0.
                 None if is(b, 0.0) && self.is_zero_where(a, condition) => b,
                 None => self.select(condition, a, b),

@@ -125,7 +125,7 @@ impl Deriving<'_> {
         self.sign_of(node).is_some()
     }
 
-    /// What a node is the sign of.
+    /// The number that a node is the sign of.
     fn sign_of(&self, node: Node) -> Option<Node> {
         match self.graph.operation(node) {
             Operation::Function(Function::Signum, of) => Some(of),

@@ -32,7 +32,7 @@ impl Deriving<'_> {
         self.squares(self.under_root(root)?)
     }
 
-    /// What stands under a root.
+    /// The node under a root.
     fn under_root(&self, root: Operation) -> Option<Node> {
         match root {
             Operation::Function(Function::Sqrt, sum) => Some(sum),
