@@ -100,7 +100,7 @@ impl Deriving<'_> {
                 harmless.insert(length, candidate.node);
                 continue;
             }
-            // Beside the kink itself the share may hold v where that changes no slope at the kink, as in v²|v|.
+            // The share may hold v beside, where that changes no slope at the kink, as in v²|v|.
             let limit = if candidate.slip.len() == 1 && !self.reads_velocity(where_it_holds) {
                 where_it_holds
             } else {
