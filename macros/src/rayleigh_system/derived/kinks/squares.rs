@@ -45,8 +45,8 @@ impl Deriving<'_> {
         }
     }
 
-    /// The velocities under a root of what is 0 with them and quadratic in them there, so that the root has a
-    /// kink.
+    /// The velocities under a root of a form that is 0 with them and quadratic in them there: the root has
+    /// a kink.
     pub(super) fn quadratic_under(&mut self, root: Operation) -> Option<Vec<Node>> {
         let form = self.under_root(root)?;
         if !self.vanishes_at_rest(form) {
