@@ -152,8 +152,8 @@ impl Deriving<'_> {
         self.graph.constant_value(slope).filter(|slope| *slope != 0.0)
     }
 
-    /// The kink where one velocity decides between `a`, if the condition holds, and `b`, which meet there with
-    /// another slope.
+    /// The kink where one velocity decides between `a`, if the condition holds, and `b`: they meet there
+    /// with different slopes.
     fn branch(&mut self, condition: Node, a: Node, b: Node) -> Option<(Vec<Node>, Extremum)> {
         let Operation::Compare(comparison, x, y) = self.graph.operation(condition) else { return None };
         let is_above = match comparison {
