@@ -31,8 +31,7 @@ pub fn check(system: &System<'_>, report: &mut Report) {
 pub fn check_derived(system: &System<'_>, derived: &Derived, report: &mut Report) {
     let kinks = &derived.kinks;
     let Some(word) = &system.rules.proximal else {
-        let forms = kinks.faults.iter().filter(|(fault, _)| *fault == Fault::NotSquares).map(|(_, at)| at);
-        for &at in kinks.written.iter().chain(forms) {
+        for &at in &kinks.certain {
             report.at_span(at, Mistake::Kink { fault: UNSERVED });
         }
         return;

@@ -108,6 +108,16 @@ sound! {
     of_squares: |q, v, c| (c * v[0].powi(4) + v[1].powi(4)).sqrt();
     turning: |q, v, c| if q[0] > 0.0 { c * v[0] } else { -c * v[0] };
     huber: |q, v, c| { let x = v[0].abs(); c * if x < 1.0 { 0.5 * x * x } else { x - 0.5 } };
+    // Smooth where c is a width above 0.
+    huber_by_field: |q, v, c| { let x = v[0].abs(); if x < c { 0.5 * x * x / c } else { x - 0.5 * c } };
+    huber_by_branch: |q, v, c| {
+        let x = if v[0] > 0.0 { v[0] } else { -v[0] };
+        if x < c { 0.5 * x * x / c } else { x - 0.5 * c }
+    };
+    huber_of_form: |q, v, c| {
+        let x = (v[0] * v[0] + v[0] * v[1] + v[1] * v[1]).sqrt();
+        if x < c { 0.5 * x * x / c } else { x - 0.5 * c }
+    };
     // Of no kink that another rule would take.
     not_linear: |q, v, c| c * (v[0] * v[0] - 1.0).abs();
     not_apart: |q, v, c| c * v[0].abs() * (1.0 + v[1] * v[1]);

@@ -23,8 +23,8 @@ pub struct Kinks {
     pub is_uniform: bool,
     /// Whether R holds each |u| with a factor, and not in another function.
     pub is_proportional: bool,
-    /// The methods that write kinks, one for each element.
-    pub written: Vec<Span>,
+    /// The methods that write kinks, whatever the fields are, at which the motion can stop.
+    pub certain: Vec<Span>,
     /// Kinks that no rule takes, and the methods that write them.
     pub faults: Vec<(Fault, Span)>,
     /// R_s, unless nothing is left of R.
@@ -106,15 +106,15 @@ impl Deriving<'_> {
             } else {
                 limit
             };
-            let is_own = limit == share;
-            shares.push((candidate, length, limit, is_own));
+            let (is_own, is_certain) = (limit == share, !self.vanishes_in_a_branch(where_it_holds));
+            shares.push((candidate, length, limit, is_own, is_certain));
         }
-        kinks.is_proportional = shares.iter().all(|&(.., is_own)| is_own);
+        kinks.is_proportional = shares.iter().all(|&(.., is_own, _)| is_own);
         // Lengths with a limit of their own leave R; of others |u| stays as it stands, less its kink.
-        let mut rest: HashMap<Node, Node> = lengths.iter().map(|&length| (length, zero)).collect();
+        let mut rest = at_rest;
         rest.extend(harmless.iter().map(|(&length, &node)| (length, node)));
         let mut kinked = Vec::new();
-        for &(candidate, length, limit, is_own) in &shares {
+        for &(candidate, length, limit, is_own, _) in &shares {
             if !is_own {
                 let node = match candidate.slip[..] {
                     [slip] => self.graph.function(Function::Abs, slip),
@@ -128,7 +128,7 @@ impl Deriving<'_> {
         for term in kinked {
             smooth = self.graph.minus(smooth, term);
         }
-        for (candidate, _, limit, is_own) in shares {
+        for (candidate, _, limit, is_own, is_certain) in shares {
             let is_form = matches!(candidate.kind, Extremum::Form);
             let faults = [
                 (is_form, Fault::NotSquares),
@@ -139,8 +139,11 @@ impl Deriving<'_> {
             let at = self.written_at(candidate.node);
             let before = kinks.faults.len();
             kinks.faults.extend(faults.into_iter().filter(|(holds, _)| *holds).map(|(_, fault)| (fault, at)));
-            if kinks.faults.len() == before {
-                kinks.written.push(at);
+            let is_taken = kinks.faults.len() == before;
+            if is_certain && (is_taken || is_form) {
+                kinks.certain.push(at);
+            }
+            if is_taken {
                 kinks.elements.push(Element { limit, slip: candidate.slip.clone() });
             }
         }
@@ -235,6 +238,19 @@ impl Deriving<'_> {
             outputs.extend(element.slip.iter().map(|_| element.limit));
         }
         self.made(Of::Slips, self.system.home(), &outputs)
+    }
+
+    /// Whether a limit is 0 in a branch that fields decide on: |v| is smooth where it is below a width of
+    /// theirs.
+    fn vanishes_in_a_branch(&self, limit: Node) -> bool {
+        match self.graph.operation(limit) {
+            Operation::Select(_, a, b) => [a, b].into_iter().any(|branch| {
+                self.graph.constant_value(branch) == Some(0.0) || self.vanishes_in_a_branch(branch)
+            }),
+            Operation::Multiply(a, b) => self.vanishes_in_a_branch(a) || self.vanishes_in_a_branch(b),
+            Operation::Divide(a, _) | Operation::Negate(a) => self.vanishes_in_a_branch(a),
+            _ => false,
+        }
     }
 
     fn is_linear_in_velocity(&mut self, slips: &[Node]) -> bool {

@@ -100,10 +100,13 @@ impl Deriving<'_> {
         }
     }
 
+    pub(super) fn velocities(&mut self) -> Vec<Node> {
+        (0..self.n).map(|i| self.variable(i, true)).collect()
+    }
+
     /// The velocity with which alone a slip is 0.
     pub(super) fn stands_with(&mut self, slip: Node) -> Option<Node> {
-        let velocities: Vec<Node> = (0..self.n).map(|i| self.variable(i, true)).collect();
-        let mut read = velocities.into_iter().filter(|&velocity| self.reads(slip, velocity));
+        let mut read = self.velocities().into_iter().filter(|&velocity| self.reads(slip, velocity));
         let velocity = read.next()?;
         (read.next().is_none() && self.vanishes_at_rest(slip)).then_some(velocity)
     }

@@ -52,7 +52,7 @@ impl Deriving<'_> {
         if !self.vanishes_at_rest(form) {
             return None;
         }
-        let velocities: Vec<Node> = (0..self.n).map(|i| self.variable(i, true)).collect();
+        let velocities = self.velocities();
         let slopes = self.derivation.gradient(&mut self.graph, form);
         let zero = self.graph.constant(0.0);
         let rest: HashMap<Node, Node> = velocities.iter().map(|&v| (v, zero)).collect();
